@@ -45,7 +45,7 @@ struct ValidRange {
 
 // Where a series fails, in the smallest scene that reproduces it.
 struct Failure {
-    std::string words;    // "forward_plus at 1e6: 1 triangle, 1 light, 1x1 pixels: error 0.8"
+    std::string text;     // "forward_plus at 1e6: 1 triangle, 1 light, 1x1 pixels: error 0.8"
     std::string scene;    // file in the audit's folder; empty: the original scene
     std::string command;  // reproduces the failure
 };

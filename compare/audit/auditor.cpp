@@ -61,7 +61,7 @@ void Auditor::measure(const Quantity& quantity, const Stage& stage) {
         quantity, subject_,
         [&](std::span<const Series> series, double magnitude) {
             stage.at(std::min(done / steps, 1.0),
-                     fmt::format("{} {}", quantity.name, magnitudeInWords(magnitude)));
+                     fmt::format("{} {}", quantity.name, magnitudeText(magnitude)));
             done += 1;
             return stepAt(quantity, series, magnitude);
         },

@@ -24,9 +24,9 @@ namespace {
 
 // Text of a range between optional ends.
 std::string rangeOf(std::optional<double> from, std::optional<double> to) {
-    if (from && to) return magnitudeInWords(*from) + " to " + magnitudeInWords(*to);
-    if (to) return "up to " + magnitudeInWords(*to);
-    return from ? "down to " + magnitudeInWords(*from) : "whole range";
+    if (from && to) return magnitudeText(*from) + " to " + magnitudeText(*to);
+    if (to) return "up to " + magnitudeText(*to);
+    return from ? "down to " + magnitudeText(*from) : "whole range";
 }
 
 // A row for each series; a page also has the predictions.
@@ -40,14 +40,14 @@ output::Table rangesOf(std::span<const QuantityAudit> all) {
         for (std::size_t s = 0; s < of.series.size(); ++s) {
             const std::string_view name = of.quantity->name;
             output::Row row{{Span(name, Span::link, fmt::format("#{}", name)),
-                             seriesText(of.series[s], of.series[s].words())}};
+                             seriesText(of.series[s], of.series[s].describe())}};
             for (const std::vector<ValidRange>& ranges : of.valid_ranges) {
                 const ValidRange& range = ranges[s];
                 const bool whole = range.at_original && !range.up.broken && !range.down.broken;
-                row.cells.push_back(output::styled(rangeInWords(range), whole ? "" : "broken"));
+                row.cells.push_back(output::styled(rangeText(range), whole ? "" : "broken"));
             }
             for (std::size_t c = 0; c < of.predicted.size(); ++c)
-                row.cells.push_back(output::styled(rangeInWords(of.predicted[c][s], of),
+                row.cells.push_back(output::styled(rangeText(of.predicted[c][s], of),
                                                    agrees(of, c, s).value_or(true) ? "" : "broken",
                                                    of.predicted[c][s].because));
             table.rows.push_back(std::move(row));
@@ -59,7 +59,7 @@ output::List remarksOn(const QuantityAudit& of) {
     output::List list{{}, "how soft small"};
     std::vector<std::string> reasons;
     for (std::size_t s = 0; s < of.series.size(); ++s) {
-        const std::string series = of.series[s].words();
+        const std::string series = of.series[s].describe();
         for (std::size_t c = 0; c < of.predicted.size(); ++c) {
             const Predicted& predicted = of.predicted[c][s];
             if (!predicted.because.empty() && std::ranges::count(reasons, predicted.because) == 0)
@@ -67,14 +67,14 @@ output::List remarksOn(const QuantityAudit& of) {
             if (!agrees(of, c, s).value_or(true))
                 list.items.emplace_back(
                     fmt::format("{}: {} was predicted {}, which differs from the measurement", series,
-                                criteria[c].title, rangeInWords(predicted, of)));
+                                criteria[c].title, rangeText(predicted, of)));
         }
         // The first step of each kind.
         bool infinite = false, failed = false;
         for (const Step& step : of.steps) {
             const Outcome& outcome = step.outcomes[s];
             const std::uint64_t pixels = outcome.whole(Measure::nonfinite_pixels);
-            const std::string at = magnitudeInWords(step.magnitude, *of.quantity);
+            const std::string at = magnitudeText(step.magnitude, *of.quantity);
             if (pixels > 0 && !std::exchange(infinite, true))
                 list.items.emplace_back(fmt::format("{}: {} NaN or infinite at {}, the first at {},{}",
                                                     series, counted(pixels, "pixel"), at, outcome.worst_x,
@@ -144,25 +144,25 @@ std::string pageOf(const Audited& audited, const std::string& title, const std::
     return inHtml(page);
 }
 
-output::Text seriesText(const Series& series, const std::string& words) {
-    return {Span("", Span::swatch, nameOf(series.path)), words};
+output::Text seriesText(const Series& series, const std::string& sentence) {
+    return {Span("", Span::swatch, nameOf(series.path)), sentence};
 }
 
-std::string magnitudeInWords(double magnitude) {
+std::string magnitudeText(double magnitude) {
     return fmt::format("{:.3g}", magnitude);
 }
 
-std::string magnitudeInWords(double magnitude, const Quantity& quantity) {
+std::string magnitudeText(double magnitude, const Quantity& quantity) {
     return fmt::format("{:.3g}{}{}", magnitude, quantity.unit.empty() ? "" : " ", quantity.unit);
 }
 
-std::string rangeInWords(const ValidRange& range) {
+std::string rangeText(const ValidRange& range) {
     if (!range.at_original) return "nowhere";
     return rangeOf(range.down.broken ? std::optional(range.down.last) : std::nullopt,
                    range.up.broken ? std::optional(range.up.last) : std::nullopt);
 }
 
-std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit) {
+std::string rangeText(const Predicted& predicted, const QuantityAudit& audit) {
     if (predicted.because.empty()) return "";
     const double first = audit.steps.front().magnitude, last = audit.steps.back().magnitude;
     const std::string range = rangeOf(predicted.down > first ? std::optional(predicted.down) : std::nullopt,
@@ -175,15 +175,15 @@ std::vector<Block> blocksOf(const QuantityAudit& of) {
     const Quantity& quantity = *of.quantity;
     std::vector<Block> blocks{Heading{3, quantity.name},
                               Paragraph{fmt::format("{}; {} to {}, here {}", quantity.what,
-                                                    magnitudeInWords(of.steps.front().magnitude),
-                                                    magnitudeInWords(of.steps.back().magnitude, quantity),
-                                                    magnitudeInWords(of.original, quantity)),
+                                                    magnitudeText(of.steps.front().magnitude),
+                                                    magnitudeText(of.steps.back().magnitude, quantity),
+                                                    magnitudeText(of.original, quantity)),
                                         "soft"},
                               {rangesOf(std::span(&of, 1)), Block::terminal},
                               output::Drawing{auditPlot(of, PlotPlace::page)},
                               remarksOn(of)};
     for (const Failure& failure : of.failures) {
-        output::List list{{failure.words}, "how again"};
+        output::List list{{failure.text}, "how again"};
         if (!failure.command.empty()) list.items.emplace_back(Span(failure.command, Span::command));
         blocks.emplace_back(list);
     }
@@ -193,9 +193,9 @@ std::vector<Block> blocksOf(const QuantityAudit& of) {
 std::vector<Block> closingOf(const Audit& audit) {
     std::vector<Block> blocks;
     for (const Requirement& requirement : audit.requirements)
-        blocks.emplace_back(Paragraph{fmt::format(
-            "{}: {} as far as {}{}", requirement.met ? "pass" : "FAIL", requirement.quantity,
-            magnitudeInWords(requirement.magnitude), requirement.met ? "" : ": " + requirement.because)});
+        blocks.emplace_back(Paragraph{fmt::format("{}: {} as far as {}{}", requirement.met ? "pass" : "FAIL",
+                                                  requirement.quantity, magnitudeText(requirement.magnitude),
+                                                  requirement.met ? "" : ": " + requirement.because)});
     return blocks;
 }
 

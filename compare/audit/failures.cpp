@@ -60,11 +60,11 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
                             outcome.error()};
     };
     const std::string at =
-        fmt::format("{} breaks at {}", series.words(), magnitudeInWords(broken->magnitude, *of.quantity));
+        fmt::format("{} breaks at {}", series.describe(), magnitudeText(broken->magnitude, *of.quantity));
     const std::optional<Reduced> reduced = reduce(pushed, test, mostTried);
     Failure& failure = of.failures.emplace_back();
     if (!reduced) {
-        failure.words = at + "; it does not occur without the scene's textures, environment and animation";
+        failure.text = at + "; it does not occur without the scene's textures, environment and animation";
         return;
     }
     failure.scene = fmt::format("{}.gltf", of.quantity->name);
@@ -72,10 +72,10 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     scenes[failure.scene] = gltfOf(reduced->smallest);
     scenes[lights] = lightsFileOf(reduced->smallest);
     const Settings& small = reduced->smallest.settings;
-    failure.words = fmt::format("{}; {}, {} and {}x{} pixels reproduce it: error {}", at,
-                                counted(triangleCount(reduced->smallest.scene), "triangle"),
-                                counted(reduced->smallest.scene.lights.size(), "light"), small.size.width,
-                                small.size.height, page::number(reduced->shown.error));
+    failure.text = fmt::format("{}; {}, {} and {}x{} pixels reproduce it: error {}", at,
+                               counted(triangleCount(reduced->smallest.scene), "triangle"),
+                               counted(reduced->smallest.scene.lights.size(), "light"), small.size.width,
+                               small.size.height, page::number(reduced->shown.error));
     const std::filesystem::path root = std::filesystem::absolute(std::filesystem::temp_directory_path());
     Temporary trial(root, root / "diptych-audit");
     if (!trial.createFolder(true)) throw std::system_error(errno, std::generic_category(), root);
@@ -87,16 +87,16 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
         asked.lights = (folder / lights).string();
         asked.path = Settings().path;
         asked.reference_mode = mode;
-        const auto compare = commandWords("compare", (folder / failure.scene).string(), asked);
-        return withWords(withOption(compare, "--baseline", "reference"), question.words);
+        const auto compare = commandArguments("compare", (folder / failure.scene).string(), asked);
+        return withArguments(withOption(compare, "--baseline", "reference"), question.words);
     };
     try {
         for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene})
             if (failure.command.empty() && question.fails(wordsIn(trial.path(), mode), trial.path()))
                 failure.command = shellLine(wordsIn(question.folder, mode));
-        if (failure.command.empty()) failure.words += "; compare tolerates this error and passes";
+        if (failure.command.empty()) failure.text += "; compare tolerates this error and passes";
     } catch (const std::runtime_error& error) {
-        failure.words += fmt::format("; it was not reproduced: {}", error.what());
+        failure.text += fmt::format("; it was not reproduced: {}", error.what());
     }
 }
 

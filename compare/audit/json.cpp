@@ -74,7 +74,7 @@ Json quantityJson(const QuantityAudit& audit) {
     }
     json["left_out"] = audit.left_out;
     json["failures"] = arrayOf(audit.failures, [](const Failure& failure) -> Json {
-        return {{"words", failure.words}, {"scene", failure.scene}, {"command", failure.command}};
+        return {{"words", failure.text}, {"scene", failure.scene}, {"command", failure.command}};
     });
     return json;
 }
@@ -87,7 +87,7 @@ Json jsonOf(const SeriesResult& of, const Relation& relation) {
         return json;
     }
     if (!of.comparison.failed.empty()) json["failed"] = of.comparison.failed;
-    json["tolerance"] = of.tolerance.inWords();
+    json["tolerance"] = of.tolerance.describe();
     json["pixels"] = {{"covered", of.comparison.covered},
                       {"set_aside", of.comparison.aside},
                       {"most_set_aside", of.comparison.most_aside},
@@ -159,7 +159,7 @@ Json toJson(const RelationAudit& audit) {
                  {"because", relation.because},
                  {"verdict", verdictOf(of)}};
         if (!of.lacks.empty()) one["lacks"] = of.lacks;
-        if (const std::string blame = blameInWords(of, audit.device); !blame.empty()) one["blame"] = blame;
+        if (const std::string blame = blameText(of, audit.device); !blame.empty()) one["blame"] = blame;
         one["series"] =
             arrayOf(of.series, [&](const SeriesResult& series) { return jsonOf(series, relation); });
         json["relations"].push_back(std::move(one));

@@ -113,10 +113,10 @@ Settings Series::applied(Settings settings) const {
     return experiment::changed(std::move(settings), changes);
 }
 
-std::string Series::words() const {
-    std::string words(nameOf(path));
-    for (const Change& change : changes) words += fmt::format(", {} {}", change.option, change.value);
-    return words;
+std::string Series::describe() const {
+    std::string text(nameOf(path));
+    for (const Change& change : changes) text += fmt::format(", {} {}", change.option, change.value);
+    return text;
 }
 
 ChosenSeries chosenOf(const std::vector<Series>& wanted,
@@ -126,14 +126,14 @@ ChosenSeries chosenOf(const std::vector<Series>& wanted,
     for (const Series& one : wanted) {
         const Settings settings = settingsOf(one);
         if (const auto problem = settings.problem()) {
-            chosen.left_out.push_back(one.words() + ": " + *problem);
+            chosen.left_out.push_back(one.describe() + ": " + *problem);
             continue;
         }
         Settings effective = effectiveSettings(settings);
         const auto same = std::ranges::find(known, effective);
         if (same != known.end()) {
             const Series& as = chosen.series[static_cast<std::size_t>(same - known.begin())];
-            chosen.left_out.push_back(fmt::format("{} draws the same as {}", one.words(), as.words()));
+            chosen.left_out.push_back(fmt::format("{} draws the same as {}", one.describe(), as.describe()));
             continue;
         }
         known.push_back(std::move(effective));

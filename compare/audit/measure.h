@@ -26,7 +26,7 @@ struct Series {
     std::vector<Change> changes;
 
     Settings applied(Settings settings) const;
-    std::string words() const;  // "deferred, gbuffer full"
+    std::string describe() const;  // "deferred, gbuffer full"
 };
 
 // Series that render different images, and descriptions of the omitted ones.

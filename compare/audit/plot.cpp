@@ -18,7 +18,7 @@ std::string wordsOf(const QuantityAudit& audit, const Step& step, std::size_t se
     const Outcome& outcome = step.outcomes[series];
     const std::uint64_t nonfinite = outcome.whole(Measure::nonfinite_pixels);
     return fmt::format("{}: {} {}: error {:.3g} (light {:.3g}, depth {:.3g}), FLIP {:.3g}{}",
-                       audit.series[series].words(), magnitudeInWords(step.magnitude), audit.quantity->unit,
+                       audit.series[series].describe(), magnitudeText(step.magnitude), audit.quantity->unit,
                        outcome.error(), outcome[Measure::light_p99], outcome[Measure::depth_p99],
                        outcome[Measure::flip],
                        nonfinite > 0 ? fmt::format(", {} NaN or infinite", counted(nonfinite, "pixel")) : "");
@@ -34,7 +34,7 @@ std::string auditPlot(const QuantityAudit& audit, PlotPlace place) {
     for (std::size_t s = 0; s < audit.series.size(); ++s)
         for (const Step& step : audit.steps) {
             const double error = step.outcomes[s].error();
-            panel.pointsOf(audit.series[s].words(), audit.series[s].path)
+            panel.pointsOf(audit.series[s].describe(), audit.series[s].path)
                 .push_back(
                     {step.magnitude,
                      error > 0 && std::isfinite(error) ? std::clamp(error, leastError, mostError) : error,

@@ -45,7 +45,7 @@ struct RelationTolerance {
     std::map<Channel, double> packed;
     const Image* packed_light = nullptr;
 
-    std::string inWords() const;
+    std::string describe() const;
 };
 
 // Worst pixel of a channel: the one with the largest error relative to its tolerance.

@@ -31,12 +31,12 @@ Span chip(std::string_view verdict) {
     return {verdict, Span::verdict, verdict == "holds" ? "pass" : "fail"};
 }
 
-std::string seriesInWords(const SeriesResult& of) {
-    return isReference(of.series.path) ? "reference, double precision" : of.series.words();
+std::string describeSeries(const SeriesResult& of) {
+    return isReference(of.series.path) ? "reference, double precision" : of.series.describe();
 }
 
 // "lit 3.1e-08, allowed 2e-07, at 12,30; another surface at 3 pixels (at most 8)".
-std::string worstInWords(const SeriesResult& of) {
+std::string describeWorst(const SeriesResult& of) {
     const FrameResult& comparison = of.comparison;
     if (!of.lacks.empty()) return of.lacks;
     if (!comparison.failed.empty()) return "not drawn: " + comparison.failed;
@@ -58,11 +58,11 @@ std::string worstInWords(const SeriesResult& of) {
 std::string summaryOf(const RelationResult& of, const ReportDevice& device) {
     if (!of.lacks.empty()) return of.lacks;
     if (verdictOf(of) == "does not apply") return "neither path reads the changed input";
-    if (!of.passes()) return blameInWords(of, device);
+    if (!of.passes()) return blameText(of, device);
     const SeriesResult& worst = *std::ranges::max_element(of.series, {}, [](const SeriesResult& one) {
         return one.lacks.empty() && !isReference(one.series.path) ? one.comparison.used() : -1;
     });
-    return (worst.comparison.used() > 0 ? worst.series.words() + ": " : "") + worstInWords(worst);
+    return (worst.comparison.used() > 0 ? worst.series.describe() + ": " : "") + describeWorst(worst);
 }
 
 output::Box imagesOf(const RelationResult& of, const SeriesResult& series) {
@@ -70,7 +70,7 @@ output::Box imagesOf(const RelationResult& of, const SeriesResult& series) {
     for (const auto& [shown, words] :
          {std::pair{"given", "original"}, {"changed", "changed"}, {"used", "error / allowed"}})
         box.blocks.emplace_back(output::ImageBlock{imageName(*of.relation, series.series, shown), words,
-                                                   fmt::format("{}, {}", words, series.series.words())});
+                                                   fmt::format("{}, {}", words, series.series.describe())});
     return box;
 }
 
@@ -97,9 +97,9 @@ output::Table verdictsOf(const RelationAudit& audit) {
         if (!of->lacks.empty()) table.rows.push_back({{name, chip(verdictOf(*of)), "", none, of->lacks}});
         for (const SeriesResult& series : of->series)
             table.rows.push_back(
-                {{name, chip(verdictOf(series)), seriesText(series.series, seriesInWords(series)),
+                {{name, chip(verdictOf(series)), seriesText(series.series, describeSeries(series)),
                   series.lacks.empty() ? output::numberCell(series.comparison.used()) : none,
-                  worstInWords(series)}});
+                  describeWorst(series)}});
     }
     return table;
 }
@@ -157,7 +157,7 @@ std::string_view verdictOf(const SeriesResult& result) {
     return !result.lacks.empty() ? "does not apply" : result.comparison.passes() ? "holds" : "broken";
 }
 
-std::string blameInWords(const RelationResult& result, const ReportDevice& device) {
+std::string blameText(const RelationResult& result, const ReportDevice& device) {
     if (result.passes()) return {};
     for (const SeriesResult& of : result.series)
         if (isReference(of.series.path) && of.lacks.empty() && !of.comparison.passes())
@@ -184,12 +184,12 @@ std::vector<Block> blocksOf(const RelationResult& of, const ReportDevice& device
          Block::page}};
     for (const SeriesResult& series : of.series) {
         if (!broken || !series.lacks.empty()) continue;
-        const std::string name = seriesInWords(series);
+        const std::string name = describeSeries(series);
         const bool holds = series.comparison.passes();
         output::List list{
             {seriesText(series.series,
-                        fmt::format("{}: {}: {}{}", name, verdictOf(series), worstInWords(series),
-                                    holds ? "" : "; tolerance: " + series.tolerance.inWords()))},
+                        fmt::format("{}: {}: {}{}", name, verdictOf(series), describeWorst(series),
+                                    holds ? "" : "; tolerance: " + series.tolerance.describe()))},
             "how small"};
         for (const ChannelResult& channel : series.comparison.channels)
             if (channel.beyond > 0)

@@ -362,7 +362,7 @@ std::span<const Channel> relatedChannels() {
     return related;
 }
 
-std::string RelationTolerance::inWords() const {
+std::string RelationTolerance::describe() const {
     if (equality == Equality::bits)
         return ulps == 0 ? "bit for bit" : fmt::format("{} ULP of the largest component", ulps);
     if (equality == Equality::sums) return fmt::format("lit: {:.2g} of each component", relative);

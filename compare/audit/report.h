@@ -26,16 +26,16 @@ inline constexpr const char* relationsManifest = "relations.json";
 std::string pageOf(const Audited& audited, const std::string& title, const std::string& about,
                    std::optional<bool> passes, std::vector<output::Block> blocks,
                    const std::vector<std::string>& files);
-// `words`, after the colour of the series' path.
-output::Text seriesText(const Series& series, const std::string& words);
+// `text`, after the colour of the series' path.
+output::Text seriesText(const Series& series, const std::string& text);
 
 // "0.03", "1e7"; of a quantity with its unit: "1e7 m".
-std::string magnitudeInWords(double magnitude);
-std::string magnitudeInWords(double magnitude, const Quantity& quantity);
+std::string magnitudeText(double magnitude);
+std::string magnitudeText(double magnitude, const Quantity& quantity);
 // Range in which a criterion is met: "1e-6 to 3.2e5", "up to 3.2e5", "whole range", "nowhere".
-std::string rangeInWords(const ValidRange& range);
+std::string rangeText(const ValidRange& range);
 // The same for a prediction; `audit` gives the range of magnitudes tried. Empty without a prediction.
-std::string rangeInWords(const Predicted& predicted, const QuantityAudit& audit);
+std::string rangeText(const Predicted& predicted, const QuantityAudit& audit);
 
 // One quantity: for a terminal its table of valid ranges, on a page its plot; remarks and failures.
 std::vector<output::Block> blocksOf(const QuantityAudit& audit);
@@ -67,7 +67,7 @@ struct RelationAudit : Audited {
 std::string_view verdictOf(const RelationResult& result);
 std::string_view verdictOf(const SeriesResult& result);
 // Likely cause; empty if nothing is broken.
-std::string blameInWords(const RelationResult& result, const ReportDevice& device);
+std::string blameText(const RelationResult& result, const ReportDevice& device);
 
 // One relation: its name, verdict and worst pixel; if it is broken, every series with images.
 std::vector<output::Block> blocksOf(const RelationResult& result, const ReportDevice& device);

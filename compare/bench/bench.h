@@ -43,7 +43,7 @@ bool isHopeless(const Bench& bench, const BenchGroup& group);
 // "1024", "36.4", "0.0123": four significant digits, all digits from 1000 on.
 std::string msText(double ms);
 
-std::string timeInWords(const BenchRow& row);  // "12.3 (12.1 to 14)", ms
+std::string describeTime(const BenchRow& row);  // "12.3 (12.1 to 14)", ms
 
 // Terminal text. benchTable(): rows from `first` on, with a header if it is 0. benchEnd(): notes, findings.
 std::string benchTable(const Bench& bench, std::size_t first);

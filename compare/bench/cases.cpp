@@ -407,7 +407,7 @@ std::string BenchRow::point() const {
     return growth ? fmt::format("{:.6g} {}", growth->value, nameOf(growth->axis)) : "";
 }
 
-std::string BenchRow::lightsInWords() const {
+std::string BenchRow::lightsText() const {
     return counted(whole(Measure::lights), "light");
 }
 

@@ -53,7 +53,7 @@ struct BenchOptions {
 
 // Reads an option's comma-separated words; no words: keeps the default. Throws std::runtime_error naming the
 // option and the word.
-void readList(BenchOptions& options, std::string_view option, const std::string& words);
+void readList(BenchOptions& options, std::string_view option, const std::string& text);
 BenchTable benchTableOf(const std::string& word);
 std::string_view nameOf(GrowthAxis axis);
 
@@ -94,7 +94,7 @@ struct BenchRow : experiment::Row {
     std::string assignLabel() const;  // without the path; with a star if it draws another image
     std::string label() const;        // name() with the star
     std::string point() const;        // "1e+06 triangles", "5 % coated"; empty: --table modes or msaa
-    std::string lightsInWords() const;
+    std::string lightsText() const;
 };
 
 struct BenchCases {

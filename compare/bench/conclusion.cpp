@@ -35,26 +35,26 @@ std::string timeText(double ms) {
 
 }  // namespace
 
-std::string Conclusion::inWords() const {
+std::string Conclusion::describe() const {
     const auto mode = [](const BenchRow& row) {
         return fmt::format("{} ({})", nameOf(row.settings.path), row.assignLabel());
     };
-    std::string words = fmt::format(
+    std::string text = fmt::format(
         "{}x{}, {}: {} takes {} ms, {} takes {:.2f} times as long (median ratio of {}; {:.2f} to {:.2f} at "
         "{:.1f} % confidence)",
-        faster->settings.size.width, faster->settings.size.height, faster->lightsInWords(), mode(*faster),
+        faster->settings.size.width, faster->settings.size.height, faster->lightsText(), mode(*faster),
         msText((*faster)[Measure::ms]), mode(*slower), ratio.ratio,
         counted(static_cast<std::uint64_t>(ratio.pairs), "interleaved frame pair"), ratio.low, ratio.high,
         100 * ratio.confidence);
-    if (!ratio.isSure()) return words + "; no significant difference, more --runs may help";
+    if (!ratio.isSure()) return text + "; no significant difference, more --runs may help";
     if (!pass.empty())
-        words += fmt::format("; the pass that differs most is {}: {} against {}", pass, timeText(faster_ms),
-                             timeText(slower_ms));
-    return words;
+        text += fmt::format("; the pass that differs most is {}: {} against {}", pass, timeText(faster_ms),
+                            timeText(slower_ms));
+    return text;
 }
 
 std::vector<Conclusion> conclusionsOf(const Bench& bench) {
-    // growthInWords() and layersInWords() replace them.
+    // growthText() and layersInWords() replace them.
     if (bench.options.table == BenchTable::growth || bench.options.table == BenchTable::layers) return {};
     std::vector<const BenchRow*> left;
     for (const BenchRow& row : bench.rows)

@@ -111,7 +111,7 @@ FrameEstimate estimate(const FrameWork& frame, const GpuRates& gpu, const Estima
     return result;
 }
 
-std::string inWords(const FrameEstimate& estimate) {
+std::string describe(const FrameEstimate& estimate) {
     std::vector<std::string> passes;
     for (const PassEstimate& pass : estimate.passes)
         passes.push_back(fmt::format("{} {:.3f} ({})", pass.name, pass.ms, pass.bound));

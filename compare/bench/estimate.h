@@ -70,6 +70,6 @@ FrameEstimate estimate(const FrameWork& frame, const GpuRates& gpu, const Estima
                        std::span<const PassCycles> cycles = {});
 
 // "deferred on NVIDIA GeForce RTX 3060: 0.42 ms; G-buffer 0.21 (memory), ..."
-std::string inWords(const FrameEstimate& estimate);
+std::string describe(const FrameEstimate& estimate);
 
 }  // namespace diptych::bench

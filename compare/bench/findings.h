@@ -26,7 +26,7 @@ struct Conclusion {
     std::string pass;
     double faster_ms = 0, slower_ms = 0;  // of that pass, ms; 0 if the row lacks it
 
-    std::string inWords() const;  // a sentence
+    std::string describe() const;  // a sentence
 };
 
 // By size and light count, in row order. Single rows have no conclusion.
@@ -57,7 +57,7 @@ Bend bendOf(const std::vector<double>& values, const std::vector<double>& amount
 double memoryMib(const BenchRow& row);
 
 // A sentence per line and metric: where growth starts, its exponent, and the pass that causes most of it.
-std::vector<std::string> growthInWords(const Bench& bench);
+std::vector<std::string> growthText(const Bench& bench);
 
 // --table layers: time, memory and registers of three ways to draw layered materials, by the share of the
 // image that they cover and by lights.
@@ -87,7 +87,7 @@ struct LayerRow {
 std::vector<LayerRow> layerRows(const Bench& bench);
 
 // Where each way is the fastest, a sentence per outcome; then the bytes of each way.
-std::vector<std::string> layersInWords(const Bench& bench);
+std::vector<std::string> layersText(const Bench& bench);
 
 std::vector<output::Block> layerBlocks(const Bench& bench);
 
@@ -120,7 +120,7 @@ std::uint64_t bytesPerSample(const BenchRow& row);
 double imageMib(const BenchRow& row);
 
 // One sentence per path: bytes per sample, and the totals at 1920x1080.
-std::vector<std::string> memoryInWords(const SampleTable& table);
+std::vector<std::string> memoryText(const SampleTable& table);
 
 std::vector<output::Block> sampleBlocks(const Bench& bench);
 

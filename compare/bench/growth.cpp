@@ -42,8 +42,8 @@ std::string cause(const GrowthLine& line) {
     return fmt::format("; {:.0f} % of the added time is in {}", 100 * most / all, name);
 }
 
-std::string lineInWords(const GrowthLine& line, const char* what, const std::vector<double>& amounts,
-                        const char* unit, const std::string& why) {
+std::string lineText(const GrowthLine& line, const char* what, const std::vector<double>& amounts,
+                     const char* unit, const std::string& why) {
     std::vector<double> values;
     for (const BenchRow* row : line.rows) values.push_back(valueOf(*row));
     const std::string begin = fmt::format(
@@ -99,7 +99,7 @@ double memoryMib(const BenchRow& row) {
     return static_cast<double>(row.whole(Measure::memory)) / (1 << 20);
 }
 
-std::vector<std::string> growthInWords(const Bench& bench) {
+std::vector<std::string> growthText(const Bench& bench) {
     std::vector<std::string> words;
     for (const GrowthLine& line : growthLines(bench)) {
         if (line.rows.size() < 2) continue;
@@ -108,8 +108,8 @@ std::vector<std::string> growthInWords(const Bench& bench) {
             ms.push_back((*row)[Measure::ms]);
             mib.push_back(memoryMib(*row));
         }
-        words.push_back(lineInWords(line, "time", ms, "ms", cause(line)));
-        words.push_back(lineInWords(line, "memory", mib, "MiB", ""));
+        words.push_back(lineText(line, "time", ms, "ms", cause(line)));
+        words.push_back(lineText(line, "memory", mib, "MiB", ""));
     }
     return words;
 }

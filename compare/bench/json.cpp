@@ -51,7 +51,7 @@ Json conclusionJson(const Conclusion& c) {
             {"sure", c.ratio.isSure()},
             {"pass", c.pass},
             {"pass_ms", {c.faster_ms, c.slower_ms}},
-            {"in_words", c.inWords()}};
+            {"in_words", c.describe()}};
 }
 
 Json samplesJson(const Bench& bench) {
@@ -76,7 +76,7 @@ Json samplesJson(const Bench& bench) {
                 {"lights", table.lights},
                 {"columns", table.columns},
                 {"rows", arrayOf(table.lines, lineOf)},
-                {"memory", memoryInWords(table)}};
+                {"memory", memoryText(table)}};
     });
 }
 
@@ -90,7 +90,7 @@ Json growthJson(const Bench& bench) {
                 {"path", nameOf(line.path)},
                 {"points", arrayOf(line.rows, pointOf)}};
     };
-    return {{"lines", arrayOf(growthLines(bench), lineOf)}, {"words", growthInWords(bench)}};
+    return {{"lines", arrayOf(growthLines(bench), lineOf)}, {"words", growthText(bench)}};
 }
 
 Json layersJson(const Bench& bench) {
@@ -112,7 +112,7 @@ Json layersJson(const Bench& bench) {
     };
     return {{"compiler", bench.compiler},
             {"rows", arrayOf(layerRows(bench), rowOf)},
-            {"words", layersInWords(bench)}};
+            {"words", layersText(bench)}};
 }
 
 }  // namespace

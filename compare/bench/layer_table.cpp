@@ -37,7 +37,7 @@ void compareWays(LayerRow& row) {
     }
 }
 
-std::string lightsInWords(const std::vector<std::uint64_t>& counts) {
+std::string lightsText(const std::vector<std::uint64_t>& counts) {
     return counts.size() == 1 ? counted(counts.front(), "light")
                               : fmt::format("{} lights", fmt::join(counts, ", "));
 }
@@ -68,7 +68,7 @@ void joinBy(std::vector<T> Conditions::*list, std::vector<Conditions>& all) {
 }
 
 // "5, 25 % coated, woven under 1, 64 lights; no layers under 1 light"
-std::string conditionsInWords(const std::vector<const LayerRow*>& rows) {
+std::string conditionsText(const std::vector<const LayerRow*>& rows) {
     std::vector<Conditions> all;
     for (const LayerRow* const row : rows)
         all.push_back({{row->cover.kind}, {row->cover.percent}, {row->lights}});
@@ -82,12 +82,12 @@ std::string conditionsInWords(const std::vector<const LayerRow*>& rows) {
                         c.kinds.front().empty()
                             ? coverName({})
                             : fmt::format("{} % {}", fmt::join(c.percents, ", "), fmt::join(c.kinds, ", ")),
-                        lightsInWords(c.lights)));
+                        lightsText(c.lights)));
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
 // Where these ways are the fastest; `all`: number of the table's rows.
-std::string outcomeInWords(const std::vector<const LayerRow*>& rows, std::size_t all) {
+std::string outcomeText(const std::vector<const LayerRow*>& rows, std::size_t all) {
     const std::vector<std::string> fastest = rows.front()->fastestNames();
     std::string subject = "no significant difference between the ways", detail;
     if (fastest.size() == 1) {
@@ -100,19 +100,19 @@ std::string outcomeInWords(const std::vector<const LayerRow*>& rows, std::size_t
                               fmt::join(fastest, " and "));
     }
     return fmt::format("{} in {} of {}{}: {}", subject, rows.size(), counted(all, "row"), detail,
-                       conditionsInWords(rows));
+                       conditionsText(rows));
 }
 
-std::string rangeInWords(const std::vector<std::uint64_t>& values) {
+std::string rangeText(const std::vector<std::uint64_t>& values) {
     const auto [least, most] = std::ranges::minmax(values);
     return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
 }
 
-std::string registersInWords(const BenchRow& row) {
+std::string registersText(const BenchRow& row) {
     std::vector<std::string> words;
     for (const PassRegisters& pass : row.registers)
         words.push_back(
-            rangeInWords({static_cast<std::uint64_t>(pass.least), static_cast<std::uint64_t>(pass.most)}));
+            rangeText({static_cast<std::uint64_t>(pass.least), static_cast<std::uint64_t>(pass.most)}));
     return words.empty() ? "-" : fmt::format("{}", fmt::join(words, "; "));
 }
 
@@ -150,14 +150,14 @@ std::vector<LayerRow> layerRows(const Bench& bench) {
     return rows;
 }
 
-std::vector<std::string> layersInWords(const Bench& bench) {
+std::vector<std::string> layersText(const Bench& bench) {
     const std::vector<LayerRow> rows = layerRows(bench);
     // Single ways first.
     std::map<std::pair<std::size_t, std::vector<std::size_t>>, std::vector<const LayerRow*>> outcomes;
     for (const LayerRow& row : rows)
         if (!row.fastest.empty()) outcomes[{row.fastest.size(), row.fastest}].push_back(&row);
     std::vector<std::string> words;
-    for (const auto& [fastest, where] : outcomes) words.push_back(outcomeInWords(where, rows.size()));
+    for (const auto& [fastest, where] : outcomes) words.push_back(outcomeText(where, rows.size()));
     for (std::size_t way = 0; way < layerWays.size(); ++way) {
         std::vector<std::uint64_t> stored, all;
         for (const LayerRow& row : rows)
@@ -167,9 +167,9 @@ std::vector<std::string> layersInWords(const Bench& bench) {
             }
         if (!stored.empty())
             words.push_back(fmt::format("{} stores {} bytes per pixel of {}; all its images {}",
-                                        layerWays.at(way).name(), rangeInWords(stored),
+                                        layerWays.at(way).name(), rangeText(stored),
                                         layerWays.at(way).has_gbuffer ? "G-buffer and depth" : "depth",
-                                        rangeInWords(all)));
+                                        rangeText(all)));
     }
     return words;
 }
@@ -196,11 +196,11 @@ std::vector<output::Block> layerBlocks(const Bench& bench) {
             });
         };
         table.groups.emplace_back(layerWays[way].name(), registers ? 4 : 3);
-        add("ms (min to max)", timeInWords);
+        add("ms (min to max)", describeTime);
         add("B/pixel",
             [](const BenchRow& row) { return fmt::format("{}", row.whole(Measure::gbuffer_bytes)); });
         add("all B/pixel", [](const BenchRow& row) { return fmt::format("{}", imageBytesPerPixel(row)); });
-        if (registers) add("VGPRs", registersInWords);
+        if (registers) add("VGPRs", registersText);
     }
     std::string means =
         "B/pixel: of G-buffer and depth, and of all images of the picture's size; fastest: by a sign test of "
@@ -210,7 +210,7 @@ std::vector<output::Block> layerBlocks(const Bench& bench) {
             "; VGPRs: vector registers per lane of the pipelines that shade, pass after pass, by the "
             "compiler of " +
             bench.compiler;
-    const std::vector<std::string> words = layersInWords(bench);
+    const std::vector<std::string> words = layersText(bench);
     return {output::Heading{2, "Where each way is the fastest"},
             output::List{{words.begin(), words.end()}, "box says"}, table,
             output::Paragraph{means, "soft small"}};

@@ -134,7 +134,7 @@ std::string msText(double ms) {
     return ms < 1000 ? fmt::format("{:.4g}", ms) : fmt::format("{:.0f}", ms);
 }
 
-std::string timeInWords(const BenchRow& row) {
+std::string describeTime(const BenchRow& row) {
     return fmt::format("{} ({} to {})", msText(row[Measure::ms]), msText(row[Measure::ms_min]),
                        msText(row[Measure::ms_max]));
 }

@@ -25,7 +25,7 @@ Plot modesPlot(const Bench& bench, const std::vector<Size>& sizes) {
                     .push_back(
                         {row[Measure::lights],
                          row[Measure::ms],
-                         fmt::format("{}, {}: {} ms", row.label(), row.lightsInWords(), timeInWords(row)),
+                         fmt::format("{}, {}: {} ms", row.label(), row.lightsText(), describeTime(row)),
                          {},
                          {row[Measure::ms_min], row[Measure::ms_max]}});
         for (PlotSeries& series : panel.series) std::ranges::stable_sort(series.points, {}, &PlotPoint::x);
@@ -82,7 +82,7 @@ Plot layersPlot(const Bench& bench) {
                             .push_back({static_cast<double>(panel.across.places.size()),
                                         (*timed)[Measure::ms],
                                         fmt::format("{}, {}: {} ms", layerWays[way].name(),
-                                                    coverName(row.cover), timeInWords(*timed))});
+                                                    coverName(row.cover), describeTime(*timed))});
                 panel.across.places.push_back(fmt::format("{}", row.cover.percent));
             }
             plot.panels.push_back(std::move(panel));
@@ -119,7 +119,7 @@ Plot barsPlot(const Bench& bench, const std::vector<Size>& sizes) {
             const std::string label = row.label();
             const PlotRange up = barAt(static_cast<double>(panel.up.places.size()));
             panel.up.name =
-                fmt::format("{}x{}, {}, {}", size.width, size.height, row.lightsInWords(), bench.scene);
+                fmt::format("{}x{}, {}, {}", size.width, size.height, row.lightsText(), bench.scene);
             panel.up.places.push_back(fmt::format("{}: {} ms", label, msText(row[Measure::ms])));
             double from = 0;
             for (const PassTime& pass : row.passes) {
@@ -134,7 +134,7 @@ Plot barsPlot(const Bench& bench, const std::vector<Size>& sizes) {
             panel.pointsOf("frame: median, range", {}, false)
                 .push_back({row[Measure::ms],
                             (up.low + up.high) / 2,
-                            fmt::format("{}: {} ms", label, timeInWords(row)),
+                            fmt::format("{}: {} ms", label, describeTime(row)),
                             {row[Measure::ms_min], row[Measure::ms_max]}});
         }
         plot.panels.push_back(std::move(panel));

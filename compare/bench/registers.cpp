@@ -17,7 +17,7 @@ DeviceOptions compiledBy(DeviceCompiler& compiler, DeviceOptions drawing) {
 }
 
 std::string codeOf(const PipelineRequest& request) {
-    return request.name() + " " + inWords(request.variant());
+    return request.name() + " " + describe(request.variant());
 }
 
 }  // namespace

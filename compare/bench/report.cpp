@@ -82,11 +82,11 @@ std::vector<Block> findings(const Bench& bench) {
     std::vector<Block> blocks;
     output::List sentences{{}, "box says"};
     if (bench.options.table == BenchTable::growth) {
-        for (const std::string& words : growthInWords(bench)) sentences.items.emplace_back(words);
+        for (const std::string& text : growthText(bench)) sentences.items.emplace_back(text);
         if (!sentences.items.empty()) blocks = {Heading{2, "How time and memory grow"}};
     }
     for (const Conclusion& conclusion : conclusionsOf(bench))
-        sentences.items.emplace_back(conclusion.inWords());
+        sentences.items.emplace_back(conclusion.describe());
     blocks.emplace_back(sentences);
     for (Block& block : sampleBlocks(bench)) blocks.push_back(std::move(block));
     return blocks;
@@ -100,9 +100,9 @@ std::vector<Block> remarks(const Bench& bench) {
     if (!bench.skips.empty()) blocks = {Heading{2, "Not timed, and why"}, skips};
     output::List notes{{}, "box says"};
     for (const BenchRow& row : bench.rows) {
-        const auto note = [&](Measure measure, const std::string& words) {
+        const auto note = [&](Measure measure, const std::string& text) {
             if (row.whole(measure) > 0)
-                notes.items.emplace_back(fmt::format("{}, {}: {}", row.name(), row.lightsInWords(), words));
+                notes.items.emplace_back(fmt::format("{}, {}: {}", row.name(), row.lightsText(), text));
         };
         note(Measure::nonfinite_pixels,
              counted(row.whole(Measure::nonfinite_pixels), "pixel") + " not finite");
@@ -111,7 +111,7 @@ std::vector<Block> remarks(const Bench& bench) {
                          counted(row.whole(Measure::unsorted_fragments), "blended fragment"),
                          counted(row.whole(Measure::unsorted_pixels), "pixel")));
     }
-    for (const std::string& words : commonNotes(bench)) notes.items.emplace_back(words);
+    for (const std::string& text : commonNotes(bench)) notes.items.emplace_back(text);
     if (std::ranges::any_of(bench.rows,
                             [](const BenchRow& row) { return drawsAnotherImage(row.settings.assign); }))
         notes.items.emplace_back(starMeans);

@@ -53,7 +53,7 @@ double imageMib(const BenchRow& row) {
     return mebibytes(row.whole(Measure::full_size_bytes));
 }
 
-std::vector<std::string> memoryInWords(const SampleTable& table) {
+std::vector<std::string> memoryText(const SampleTable& table) {
     std::vector<std::string> lines;
     std::vector<Path> told;
     for (const SampleTable::Line& line : table.lines) {
@@ -88,7 +88,7 @@ std::vector<output::Block> sampleBlocks(const Bench& bench) {
                           });
             };
             shown.groups.emplace_back(counted(static_cast<std::uint64_t>(samples), "sample"), 4);
-            add("ms (min to max)", timeInWords);
+            add("ms (min to max)", describeTime);
             add("lighting ms",
                 [](const BenchRow& row) { return fmt::format("{:.3g}", passMs(row, "shade")); });
             add("MiB", [](const BenchRow& row) { return fmt::format("{:.4g}", imageMib(row)); });
@@ -99,8 +99,8 @@ std::vector<output::Block> sampleBlocks(const Bench& bench) {
             output::Heading{2, fmt::format("Samples per pixel: {}, {}x{}, {}", table.scene, table.size.width,
                                            table.size.height, counted(table.lights, "light"))});
         blocks.emplace_back(std::move(shown));
-        for (const std::string& words : memoryInWords(table))
-            blocks.emplace_back(output::Paragraph{words, "soft"});
+        for (const std::string& text : memoryText(table))
+            blocks.emplace_back(output::Paragraph{text, "soft"});
     }
     return blocks;
 }

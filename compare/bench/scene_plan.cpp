@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/scene_plan.h"
 
-#include "compare/bench/compiled_words.h"
+#include "compare/bench/compiled_text.h"
 #include "compare/bench/estimate.h"
 #include "shared/text/counted.h"
 
@@ -61,7 +61,7 @@ std::string workText(const ScenePlan& plan, const FrameWork& work) {
             pass.counts.compute,
             (static_cast<double>(pass.counts.read + pass.counts.written) + pass.vertex_bytes) * 1e-6);
     for (const FrameEstimate& estimate : estimatesOf(plan, work))
-        text += fmt::format("    estimate, {}\n", inWords(estimate));
+        text += fmt::format("    estimate, {}\n", describe(estimate));
     return text;
 }
 
@@ -77,13 +77,13 @@ Json variantsJson(const ScenePlan& plan) {
 }
 
 // "16 bytes per pixel, 48 with lit; with --msaa 4 96 and 176"
-std::string bytesInWords(const PathPlan& path) {
+std::string bytesText(const PathPlan& path) {
     const SampledBytes& planned = path.bytes.front();
-    std::string words = fmt::format("{} bytes per pixel, {} with lighting", planned.geometry, planned.all);
+    std::string sentence = fmt::format("{} bytes per pixel, {} with lighting", planned.geometry, planned.all);
     for (const SampledBytes& other : path.bytes)
         if (other.samples != planned.samples)
-            words += fmt::format("; {} and {} with --msaa {}", other.geometry, other.all, other.samples);
-    return words;
+            sentence += fmt::format("; {} and {} with --msaa {}", other.geometry, other.all, other.samples);
+    return sentence;
 }
 
 }  // namespace
@@ -129,7 +129,7 @@ Json toJson(const ScenePlan& plan) {
     return json;
 }
 
-std::string inWords(const ScenePlan& plan) {
+std::string describe(const ScenePlan& plan) {
     std::string text;
     const Requirements& needs = plan.needs;
     text += fmt::format("{}: {}, {}, {}, {}, {}\n", plan.scene, counted(needs.draws, "draw"),
@@ -148,7 +148,7 @@ std::string inWords(const ScenePlan& plan) {
                             isDrawn(plan, i) ? "drawn" : fmt::format("--variant {} draws it", i));
     for (const PathPlan& path : plan.paths) {
         text += fmt::format(
-            "  {}: {}; {}{}\n", path.path, fmt::join(path.passes, " > "), bytesInWords(path),
+            "  {}: {}; {}{}\n", path.path, fmt::join(path.passes, " > "), bytesText(path),
             path.shared_bytes_per_pixel > 0
                 ? fmt::format("; images that share memory save {} more", path.shared_bytes_per_pixel)
                 : "");

@@ -25,7 +25,7 @@ struct ScenePlan {
     std::vector<CompiledPath> compiled;  // with --compile-on
     const DeviceInfo* compiler = nullptr;
 };
-std::string inWords(const ScenePlan& plan);
+std::string describe(const ScenePlan& plan);
 nlohmann::ordered_json toJson(const ScenePlan& plan);
 
 }  // namespace diptych::bench

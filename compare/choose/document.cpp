@@ -39,13 +39,13 @@ std::string_view titleOf(Measure measure) {
 }
 
 // "takes 3.1 % longer (-0.5 % to +6.8 %)", "takes 0.5 % less time (-1.2 % to +0.3 %)"
-std::string longerInWords(const TimeRatio& of) {
+std::string longerText(const TimeRatio& of) {
     return fmt::format("takes {:.1f} % {} ({:+.1f} % to {:+.1f} %)", 100 * std::abs(of.ratio - 1),
                        of.ratio < 1 ? "less time" : "longer", 100 * (of.low - 1), 100 * (of.high - 1));
 }
 
 // "the fastest with FLIP at most 0.01"
-std::string goalInWords(const Budget& budget) {
+std::string goalText(const Budget& budget) {
     std::vector<std::string> limits;
     if (budget.error)
         limits.push_back(fmt::format("{} at most {:.4g}", titleOf(budget.metric), *budget.error));
@@ -56,7 +56,7 @@ std::string goalInWords(const Budget& budget) {
 }
 
 // "4.5 ms, FLIP 0.0125, 3 MiB"
-std::string metricsInWords(const experiment::Row& row, Measure metric) {
+std::string metricsText(const experiment::Row& row, Measure metric) {
     std::string text =
         row.measured.has(Measure::ms) ? fmt::format("{:.4g} ms", row[Measure::ms]) : "not timed";
     if (row.measured.has(Measure::memory))
@@ -65,7 +65,7 @@ std::string metricsInWords(const experiment::Row& row, Measure metric) {
     return text;
 }
 
-Sentences missesInWords(const experiment::Row& row, const Budget& budget) {
+Sentences missesText(const experiment::Row& row, const Budget& budget) {
     Sentences lines;
     const auto gap = [&](double value, double limit, const char* what, const std::string& limit_text) {
         if (value > limit)
@@ -84,8 +84,8 @@ void addFinalists(Sentences& lines, const Report& report) {
     const auto& choice = report.choice;
     const char* const over = isJoint<Report> ? " over all scenes" : "";
     const auto add = [&](const char* what, std::size_t i) {
-        lines.emplace_back(fmt::format("{}: {}:{} {}", what, report.words[i], over,
-                                       longerInWords(*choice.candidates[i].race)));
+        lines.emplace_back(
+            fmt::format("{}: {}:{} {}", what, report.words[i], over, longerText(*choice.candidates[i].race)));
     };
     if (choice.runner_up && std::ranges::count(choice.ties, *choice.runner_up) == 0)
         add("runner-up", *choice.runner_up);
@@ -113,7 +113,7 @@ std::string numberText(double value) {
 }
 
 // The times at each of a few values.
-std::string timesInWords(const PropertySensitivity& sensitivity, const SensitivityReport& report) {
+std::string describeTimes(const PropertySensitivity& sensitivity, const SensitivityReport& report) {
     std::vector<std::string> words;
     for (const TimedValue& at : sensitivity.times)
         if (at.value != sensitivity.property.value)
@@ -125,13 +125,13 @@ std::string timesInWords(const PropertySensitivity& sensitivity, const Sensitivi
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
-std::string sensitivityInWords(const PropertySensitivity& sensitivity, const SensitivityReport& report) {
+std::string sensitivityText(const PropertySensitivity& sensitivity, const SensitivityReport& report) {
     const Property& property = sensitivity.property;
     std::string text = fmt::format("{}: {} {}; ", property.name, numberText(property.value), property.unit);
     if (!property.not_varied.empty() || sensitivity.times.size() < 2)
         return text + (property.not_varied.empty() ? "its variations change nothing" : property.not_varied);
     if (property.few_values)
-        text += timesInWords(sensitivity, report);
+        text += describeTimes(sensitivity, report);
     else if (const auto& at = sensitivity.break_even)
         text += fmt::format("{} is faster {} {} ({} to {}), {}", report.other_path,
                             at->other_above ? "above" : "below", numberText(at->value), numberText(at->low),
@@ -160,7 +160,7 @@ void addSensitivities(std::vector<Block>& blocks, const SensitivityReport& repor
     constexpr std::size_t listed = 3;  // sorted by relevance; JSON has all
     output::List list{{}, "box says"};
     for (const PropertySensitivity& each : report.properties)
-        if (list.items.size() < listed) list.items.emplace_back(sensitivityInWords(each, report));
+        if (list.items.size() < listed) list.items.emplace_back(sensitivityText(each, report));
     blocks.emplace_back(list);
 }
 
@@ -219,7 +219,7 @@ Table candidateTable(const ChoiceReport& report) {
     addColumn(table, {"result"}, order, [&](std::size_t i) {
         return i == choice.chosen                       ? "chosen"
                : std::ranges::count(choice.ties, i) > 0 ? "tied with the best"
-                                                        : choice.candidates[i].statusName().words;
+                                                        : choice.candidates[i].statusName().text;
     });
     if (choice.chosen) table.rows.front().style = "chosen";
     return table;
@@ -239,9 +239,8 @@ Table sceneTable(const CommonReport& report, std::size_t candidate) {
         addColumn(table, {"against its own choice", output::Column::prose}, report.choice.slower,
                   [](const std::optional<TimeRatio>& slower) -> output::Cell {
                       if (!slower) return "the scene has no choice of its own";
-                      return output::sorted(slower->ratio, slower->low == slower->high
-                                                               ? "its own choice"
-                                                               : longerInWords(*slower));
+                      return output::sorted(slower->ratio, slower->low == slower->high ? "its own choice"
+                                                                                       : longerText(*slower));
                   });
     return table;
 }
@@ -275,8 +274,8 @@ std::string plotOf(const ChoiceReport& report, PlotPlace place) {
         panel.pointsOf(std::string(nameOf(candidate.settings.path)), candidate.settings.path, false)
             .push_back({.x = ms,
                         .y = error,
-                        .words = fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report.words[i], ms, metric,
-                                             error, candidate.statusName().words),
+                        .text = fmt::format("{}; {:.4g} ms, {} {:.4g}; {}", report.words[i], ms, metric,
+                                            error, candidate.statusName().text),
                         .across = {endOf(candidate, &TimeRatio::low), endOf(candidate, &TimeRatio::high)},
                         .row = i + 1,
                         .best = raced,
@@ -295,7 +294,7 @@ std::string plotOf(const ChoiceReport& report, PlotPlace place) {
 
 }  // namespace
 
-std::string whyInWords(const ChoiceReport& report) {
+std::string whyText(const ChoiceReport& report) {
     const Choice& choice = report.choice;
     if (!choice.chosen) return {};
     const Candidate& chosen = choice.candidates[*choice.chosen];
@@ -329,8 +328,8 @@ std::vector<Block> blocksOf(const ChoiceReport& report) {
     Sentences lines;
     if (const std::optional<std::size_t> shown = choice.shown()) {
         const Candidate& candidate = choice.candidates[*shown];
-        metrics = metricsInWords(candidate, report.budget.metric);
-        lines = choice.chosen ? Sentences{whyInWords(report)} : missesInWords(candidate, report.budget);
+        metrics = metricsText(candidate, report.budget.metric);
+        lines = choice.chosen ? Sentences{whyText(report)} : missesText(candidate, report.budget);
     }
     if (choice.chosen) {
         addFinalists(lines, report);
@@ -349,7 +348,7 @@ std::vector<Block> blocksOf(const ChoiceReport& report) {
                 {verdictOf(report), " ", Span(report.scene, Span::name),
                  fmt::format(", {}x{}, ", report.given.size.width, report.given.size.height),
                  Span(fmt::format("{}", fmt::join(report.cameras, "; ")), Span::foreign),
-                 ": " + goalInWords(report.budget)}},
+                 ": " + goalText(report.budget)}},
         output::Box{"choice", {outcomeBox(report, metrics, lines), plot}}};
     if (report.sensitivities) addSensitivities(blocks, *report.sensitivities);
     output::List notes{{}, "box says"};
@@ -367,8 +366,8 @@ std::vector<Block> blocksOf(const CommonReport& report) {
     if (choice.nearest) {
         const experiment::Row& worst = choice.candidates[*choice.nearest].scenes[choice.nearest_scene];
         metrics = fmt::format("{}: {}", report.scenes[choice.nearest_scene],
-                              metricsInWords(worst, report.budget.metric));
-        lines = missesInWords(worst, report.budget);
+                              metricsText(worst, report.budget.metric));
+        lines = missesText(worst, report.budget);
     }
     if (choice.chosen) addFinalists(lines, report);
     const auto fit = std::ranges::count(choice.candidates, true, &CommonCandidate::fits);
@@ -379,7 +378,7 @@ std::vector<Block> blocksOf(const CommonReport& report) {
         Heading{2,
                 {verdictOf(report),
                  fmt::format(" all {} scenes, {}x{}: {} in each", report.scenes.size(),
-                             report.given.size.width, report.given.size.height, goalInWords(report.budget))}},
+                             report.given.size.width, report.given.size.height, goalText(report.budget))}},
         outcomeBox(report, metrics, lines)};
     if (const std::optional<std::size_t> shown = choice.shown())
         blocks.emplace_back(sceneTable(report, *shown));

@@ -85,7 +85,7 @@ Json sceneJson(const ChoiceReport& report) {
         {"budget",
          {{"error", orNull(budget.error)}, {"ms", orNull(budget.ms)}, {"bytes", orNull(budget.bytes)}}}};
     addOutcome(json, report);
-    json["why"] = whyInWords(report);
+    json["why"] = whyText(report);
     if (report.sensitivities) json["deciders"] = jsonOf(*report.sensitivities);
     Json rows = Json::array();
     for (std::size_t i = 0; i < report.choice.candidates.size(); ++i) {

@@ -75,7 +75,7 @@ inline std::optional<Settings> chosenSettings(const Choices& choices) {
 std::vector<output::Block> blocksOf(const ChoiceReport& report);
 std::vector<output::Block> blocksOf(const CommonReport& report);
 // Compares the chosen Settings with the other path's best fitting ones, pass by pass.
-std::string whyInWords(const ChoiceReport& report);
+std::string whyText(const ChoiceReport& report);
 
 // The report of one scene, or { "scenes": [...], "all": {...} } with the joint choice as "settings".
 nlohmann::ordered_json toJson(const Choices& choices);

@@ -199,9 +199,9 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 }
 
 void SceneChooser::describe(AnyReport& report, Settings& candidate, const std::string& scene) const {
-    report.words.push_back(experiment::inWords(experiment::changesOf(candidate, report.given)));
+    report.words.push_back(experiment::describe(experiment::changesOf(candidate, report.given)));
     candidate.camera = question_.settings.camera;
-    report.commands.push_back(shellLine(commandWords("render", scene, candidate)));
+    report.commands.push_back(shellLine(commandArguments("render", scene, candidate)));
 }
 
 std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded, const ChoiceReport& report,

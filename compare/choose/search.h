@@ -70,7 +70,7 @@ enum class CandidateStatus {
     raced,  // fits, and was timed against the best
 };
 struct StatusName {
-    const char *word, *words;
+    const char *word, *text;
 };
 inline constexpr std::array<StatusName, 5> statusNames{{{"slower", "slower, error not measured"},
                                                         {"misses", "over the error or memory budget"},

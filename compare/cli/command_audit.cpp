@@ -34,7 +34,7 @@ struct AuditLine : SceneGroup {
     std::vector<std::pair<std::string, double>> required;
     bool relations = false;                     // --relations: test relations instead of quantities
     std::vector<std::string> chosen_relations;  // --relation: names; empty: all
-    std::vector<std::string> required_words;    // NAME=MAGNITUDE
+    std::vector<std::string> required_text;     // NAME=MAGNITUDE
 };
 
 std::string namesOf(const auto& all) {
@@ -52,7 +52,7 @@ void describeAudit(CLI::App& app, AuditLine& options) {
             fmt::format("quantities to push (all): {}. Defaults: --size 160x90; --shadows off, except for "
                         "shadow quantities",
                         namesOf(audit::quantities())));
-    addList(app, "--require", options.required_words, "NAME=MAGNITUDE,...",
+    addList(app, "--require", options.required_text, "NAME=MAGNITUDE,...",
             "exit code 1 if a path's error reaches 1e-2 between the original scene and this magnitude; "
             "repeatable");
     app.add_flag("--relations", options.relations,
@@ -72,10 +72,10 @@ void resolveAudit(AuditLine& options) {
     options.relations = options.relations || !options.chosen_relations.empty();
     if (options.relations && !options.quantities.empty())
         refuse("--quantity: --relations stresses no quantity; give one of the two");
-    if (options.relations && !options.required_words.empty())
+    if (options.relations && !options.required_text.empty())
         refuse("--require: --relations stresses no quantity; give one of the two");
     audit::quantitiesOf(options.quantities);  // throws for unknown names
-    for (const std::string& words : options.required_words) {
+    for (const std::string& words : options.required_text) {
         const std::size_t at = words.find('=');
         double magnitude = -1;
         const char* const end = words.data() + words.size();

@@ -17,7 +17,7 @@ namespace {
 
 struct BenchLine : SceneGroup, BenchOptions {
     std::string compile_on;  // a device or GPU family; empty: none
-    std::string table_word = "modes", kernels = "off";
+    std::string table_text = "modes", kernels = "off";
     std::map<std::string, std::string> lists;  // words of options that readList() reads
 };
 
@@ -29,7 +29,7 @@ void describeBench(CLI::App& app, BenchLine& options) {
     const auto addWords = [&](const char* option, const std::string& type, const char* help) {
         addOption(app, option, options.lists[option], type, help);
     };
-    addOption(app, "--table", options.table_word, "modes|msaa|growth|layers",
+    addOption(app, "--table", options.table_text, "modes|msaa|growth|layers",
               "modes: every mode; msaa: each path by samples per pixel, with and without blended surfaces, "
               "and its memory; growth: each path as one quantity grows; layers: forward+ and both --layers "
               "of deferred by what coats, sheen, brushed surfaces and glass cover (modes)");
@@ -65,7 +65,7 @@ void resolveBench(BenchLine& options) {
     if (options.kernels != "off")
         refuse("--kernels {}: bench times frames alone; build/tests/bench_kernels times the kernels",
                options.kernels);
-    options.table = benchTableOf(options.table_word);
+    options.table = benchTableOf(options.table_text);
 }
 
 void checkBenchOptions(const BenchLine& options) {

@@ -60,7 +60,7 @@ int runCalibrate(const CalibrateLine& options) {
     const std::vector<external::Deviation> deviations = external::deviationsOf(charts, images);
     progress.wipe();
     printResult(options, jsonText(external::toJson(renderer, deviations)) + "\n",
-                external::inWords(renderer, deviations));
+                external::describe(renderer, deviations));
     return exitCode(deviations.empty());
 }
 

@@ -24,8 +24,8 @@ namespace {
 using namespace choose;
 
 struct ChooseLine : SceneGroup, GridGroup, Budget {
-    std::string metric_word = "flip";  // name in experiment::errorMetrics
-    std::string bytes_word;
+    std::string metric_text = "flip";  // name in experiment::errorMetrics
+    std::string bytes_text;
     bool explain = false;  // --explain-choice
 };
 
@@ -39,11 +39,11 @@ void describeChoose(CLI::App& app, ChooseLine& options) {
     app.option_defaults()->group("Budgets (one or two)");
     addOption(app, "--max-error", options.error, "E",
               "largest error of lit; finds the fastest Settings within it");
-    addOption(app, "--figure", options.metric_word, "flip|relative_rmse|relative_p99",
+    addOption(app, "--figure", options.metric_text, "flip|relative_rmse|relative_p99",
               "error metric of --max-error (flip)");
     addOption(app, "--max-ms", options.ms, "T",
               "longest frame time, ms; without --max-error, finds the most accurate Settings within it");
-    addOption(app, "--max-bytes", options.bytes_word, "B",
+    addOption(app, "--max-bytes", options.bytes_text, "B",
               "largest memory of a frame: bytes, or a number with KiB, MiB or GiB");
     app.add_flag("--explain-choice", options.explain,
                  "explain the choice of path: the effect of overdraw, lights per pixel, transparency, "
@@ -67,7 +67,7 @@ std::optional<std::uint64_t> bytesOf(const std::string& word) {
 
 void resolveChoose(ChooseLine& options) {
     resolveScene(options);
-    options.bytes = bytesOf(options.bytes_word);
+    options.bytes = bytesOf(options.bytes_text);
     if (options.error && !(*options.error >= 0 && std::isfinite(*options.error)))
         refuse("--max-error {}: must be 0 or more and finite", *options.error);
     if (options.ms && !(*options.ms > 0 && std::isfinite(*options.ms)))
@@ -101,7 +101,7 @@ void checkChooseOptions(const ChooseLine& options) {
 
 Question questionOf(const ChooseLine& options) {
     return {options.settings,    options.camera_given ? options.cameras : std::vector<std::string>(),
-            options.grid,        {metricNamed(options.metric_word), options.error, options.ms, options.bytes},
+            options.grid,        {metricNamed(options.metric_text), options.error, options.ms, options.bytes},
             options.explain,     renderOptions(options),
             imageChoice(options)};
 }
@@ -115,8 +115,8 @@ int runChoose(const ChooseLine& options) {
     say(options, "on " + device.info().name);
     SceneChooser chooser(question, device, progress);
     Choices choices;
-    const auto tell = [&](const std::string& words) {
-        if (!options.json && !options.quiet) printColored(options, words);
+    const auto tell = [&](const std::string& text) {
+        if (!options.json && !options.quiet) printColored(options, text);
     };
     for (const std::string& scene : scenes) {
         choices.scenes.push_back(chooser.choose(scene));

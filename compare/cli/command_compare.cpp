@@ -4,7 +4,7 @@
 
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
-#include "compare/cli/verdict_words.h"
+#include "compare/cli/verdict_options.h"
 #include "compare/files/frame_exr.h"
 #include "compare/files/scene_folders.h"
 #include "compare/report/exposure_line.h"
@@ -193,7 +193,7 @@ int runCompare(const CompareLine& given) {
 }  // namespace
 
 experiment::Compared comparedOf(const CompareLine& options) {
-    return {options.baseline, !options.baseline_file.empty(), options.renderers, options.renderer_words};
+    return {options.baseline, !options.baseline_file.empty(), options.renderers, options.renderer_texts};
 }
 
 ExplanationQuestion explanationOf(const CompareLine& options) {
@@ -209,7 +209,7 @@ bool isTraced(const std::vector<Settings>& settings, const std::optional<Frame>&
 }
 
 void addCompared(CLI::App& app, CompareLine& options, const char* out) {
-    addOption(app, "--times", options.settings_words.times, "S,S,...",
+    addOption(app, "--times", options.settings_text.times, "S,S,...",
               "several animation times in one report, seconds (--time)")
         ->group(pixel_group)
         ->excludes(app.get_option("--time"));
@@ -228,13 +228,13 @@ void addJudged(CLI::App& app, CompareLine& options) {
                  "replace the --baseline FILE.exr; the old one stays as FILE.exr.old");
     addSelection(app, options);
     addTolerances(app, options);
-    addOption(app, "--twice", options.twice_word, "all|lit|none",
+    addOption(app, "--twice", options.twice_text, "all|lit|none",
               "channels to render a second time; a difference between the two runs is a race (lit)");
     app.add_flag("--allow-noise", options.allow_noise,
                  "on a GPU, add the difference between two runs of one path to its tolerance");
     app.option_defaults()->group(output_group);
     app.add_flag("--explain", options.explain, "name the causes of a lit difference even if it passes");
-    addOption(app, "--pixel", options.pixel_word, "X,Y",
+    addOption(app, "--pixel", options.pixel_text, "X,Y",
               "instead of a report, print one pixel's breakdown: both surfaces, each light's term, the first "
               "step that differs; exit code 0 if that succeeds");
 }
@@ -242,14 +242,14 @@ void addJudged(CLI::App& app, CompareLine& options) {
 void resolveCompare(CompareLine& options) {
     resolveScene(options);
     resolveKeep(options);
-    options.twice = valueNamed<Twice>("--twice", options.twice_word,
+    options.twice = valueNamed<Twice>("--twice", options.twice_text,
                                       {{{"all", Twice::all}, {"lit", Twice::lit}, {"none", Twice::none}}});
     resolveBaseline(options);
     if (options.update_baseline &&
         (options.baseline_file.empty() || !imageName(options.baseline_file).part.empty()))
         refuse("--update-baseline: needs --baseline FILE.exr (without ?part=), the file to replace");
     resolveRenderers(options);
-    if (options.pixel_word) options.pixel = pixelOf(*options.pixel_word);
+    if (options.pixel_text) options.pixel = pixelOf(*options.pixel_text);
     resolveSelection(options);
 }
 
@@ -261,7 +261,7 @@ Command compareCommand() {
         describeCompare, resolveCompare, runCompare);
 }
 
-std::vector<std::string> wordsOfWhatCounts(const CompareLine& options) {
+std::vector<std::string> verdictOptions(const CompareLine& options) {
     WordList words;
     words.add("--tolerances", options.tolerances.string());
     words.add("--baseline", options.baseline_file.string());
@@ -284,7 +284,7 @@ CompareOptions compareOptions(const CompareLine& options) {
     compare.strict = options.strict;
     compare.allow_empty = options.allow_empty;
     compare.required = options.channels;
-    compare.words = wordsOfWhatCounts(options);
+    compare.words = verdictOptions(options);
     compare.light_differs = lightDifferences(options.sides.of(options.settings, drawn_paths[0]),
                                              options.sides.of(options.settings, drawn_paths[1]));
     if (options.tolerances.empty()) return compare;

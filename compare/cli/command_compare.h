@@ -25,8 +25,8 @@ struct CompareLine : ShardedGroup,
     bool allow_noise = false;
     bool explain = false;        // explains lit even where it passes
     std::optional<Pixel> pixel;  // to break down
-    std::string twice_word = "lit";
-    std::optional<std::string> pixel_word;
+    std::string twice_text = "lit";
+    std::optional<std::string> pixel_text;
 };
 
 // Options after those of the scene: first up to the files of a report, then the rest. `out`: help of --out.
@@ -37,7 +37,7 @@ void resolveCompare(CompareLine& options);
 int runPixel(const CompareLine& options);  // --pixel
 
 // Words of options that influence the verdict, without scene, camera and Settings.
-std::vector<std::string> wordsOfWhatCounts(const CompareLine& options);
+std::vector<std::string> verdictOptions(const CompareLine& options);
 
 // Options of `compare` that influence a verdict. Reads the rules; throws std::runtime_error, one line, if
 // they are invalid or name an unknown channel.

@@ -4,7 +4,7 @@
 
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
-#include "compare/cli/verdict_words.h"
+#include "compare/cli/verdict_options.h"
 #include "compare/files/image_folders.h"
 #include "compare/report/image_diff_json.h"
 #include "compare/report/image_diff_report.h"
@@ -24,7 +24,7 @@ void describeDiff(CLI::App& app, DiffLine& options) {
     ImageDiffOptions& diff = options.diff;
     addOption(app, "images", options.images, "A B", "reference and test image")->expected(2)->required();
     app.option_defaults()->group(selection_group);
-    addOption(app, "--metric", options.metric_word, "NAME",
+    addOption(app, "--metric", options.metric_text, "NAME",
               "metric for the verdict: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)");
     addOption(
         app, "--tolerance", options.tolerance_given, "T",
@@ -67,8 +67,8 @@ void resolveDiff(DiffLine& options) {
     diff.selection = options.selection;
     diff.strict = options.strict;
     diff.allow_empty = options.allow_empty;
-    diff.metric_given = !options.metric_word.empty();
-    diff.metric = metricOfMetric(diff.metric_given ? options.metric_word : "flip");
+    diff.metric_given = !options.metric_text.empty();
+    diff.metric = metricOfMetric(diff.metric_given ? options.metric_text : "flip");
     if (diff.failing && diff.metric_given)
         refuse("--failing: counts pixels by the channel's own error; leave out --metric");
     if (!std::isfinite(diff.blur)) refuse("--blur: must be a finite number of pixels");
@@ -151,7 +151,7 @@ int runDiff(const DiffLine& options) {
     if (asReport)
         writeDiffs(diff.images, output->path,
                    {{}, options.single_file, options.keep, options.force, stage.part(measuring, 1)},
-                   wordsOfWhatCounts(options), diff.errors, diff.failures());
+                   verdictOptions(options), diff.errors, diff.failures());
     else if (output)
         writeDiffErrors(diff.images.front(), *output);
     progress.wipe();
@@ -162,7 +162,7 @@ int runDiff(const DiffLine& options) {
 
 }  // namespace
 
-std::vector<std::string> wordsOfWhatCounts(const DiffLine& options) {
+std::vector<std::string> verdictOptions(const DiffLine& options) {
     const ImageDiffOptions &diff = options.diff, defaults;
     WordList words;
     words.add("--tolerances", options.tolerances.string());

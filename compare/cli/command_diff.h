@@ -10,11 +10,11 @@ namespace diptych::cli {
 struct DiffLine : OutputGroup, SelectionGroup, RulesGroup, KeepGroup {
     std::vector<std::string> images;  // reference and test
     ImageDiffOptions diff;            // all but the rules
-    std::string metric_word;
+    std::string metric_text;
     std::optional<double> tolerance_given;
 };
 
 // Words of options that influence the verdict.
-std::vector<std::string> wordsOfWhatCounts(const DiffLine& options);
+std::vector<std::string> verdictOptions(const DiffLine& options);
 
 }  // namespace diptych::cli

@@ -141,10 +141,10 @@ Settings checkedBaseline(const ExplainLine& options) {
 void addCommands(const ExplainLine& options, const Settings& baseline, const Settings& test,
                  ExplainedImages& of) {
     const bool external = !options.renderers.empty(), across = !options.against_device.empty();
-    std::vector<std::string> again =
-        withWords(withWords(explainWords(of.scene, options.settings, options.baseline, options.test),
-                            options.renderer_words),
-                  wordsOf(options.sides));
+    std::vector<std::string> again = withArguments(
+        withArguments(explainArguments(of.scene, options.settings, options.baseline, options.test),
+                      options.renderer_texts),
+        wordsOf(options.sides));
     if (across)
         again = withOption(withOption(std::move(again), "--against-device", options.against_device),
                            "--device", options.device.empty() ? "0" : options.device);
@@ -153,8 +153,8 @@ void addCommands(const ExplainLine& options, const Settings& baseline, const Set
     if (!external && !across) of.commands.push_back({"The test alone", commandOf("render", of.scene, test)});
     if (options.test.empty() && !external)
         of.commands.push_back(
-            {"Every channel of both",
-             shellLine(withWords(commandWords("compare", of.scene, baseline), wordsOf(options.sides)))});
+            {"Every channel of both", shellLine(withArguments(commandArguments("compare", of.scene, baseline),
+                                                              wordsOf(options.sides)))});
 }
 
 int explainScene(const ExplainLine& options) {

@@ -32,7 +32,7 @@ std::vector<std::string> joinFlagValues(const std::vector<std::string>& words) {
 }
 
 // Rewrites CLI11's "--size: At Most 1 required but received 3".
-std::string inOurWords(const std::string& error) {
+std::string inOurTerms(const std::string& error) {
     constexpr std::string_view tooOften = ": At Most 1 required but received ";
     const std::size_t at = error.find(tooOften);
     if (at == std::string::npos) return error;
@@ -145,7 +145,7 @@ std::string parseErrorText(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* chosen = &app;
     for (const CLI::App* sub : app.get_subcommands()) chosen = sub;
     return fmt::format(
-        "{}{}; see diptych {}--help", inOurWords(error.what()),
+        "{}{}; see diptych {}--help", inOurTerms(error.what()),
         dynamic_cast<const CLI::ExtrasError*>(&error) ? meantOption(error.what(), *chosen) : "",
         chosen == &app ? "" : chosen->get_name() + " ");
 }

@@ -70,7 +70,7 @@ int runPlan(const PlanLine& options) {
         if (options.json)
             scenes.push_back(toJson(result));
         else if (!options.quiet)
-            printText(inWords(result));
+            printText(describe(result));
     }
     checkValidation(device);
     if (options.json) printOut("{}\n", jsonText(Json{{"schema", 1}, {"scenes", scenes}}));

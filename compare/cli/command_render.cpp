@@ -149,7 +149,7 @@ int runRender(const RenderLine& options) {
                  frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
         if (output.kind != OutputKind::exr) printOut("  picture: {}\n", exposureLine(frame, image));
         for (const std::string& line : frame.notes) printOut("  note: {}\n", line);
-        for (const std::string& line : repairedInWords(frame)) printOut("  note: {}\n", line);
+        for (const std::string& line : repairedText(frame)) printOut("  note: {}\n", line);
     }
     if (options.json) printOut("{}\n", jsonText(result));
     return 0;

@@ -20,7 +20,7 @@ nlohmann::ordered_json ownOf(const CompareLine& options) {
     nlohmann::ordered_json own{{"command", "compare"},
                                {"baseline", nameOf(options.baseline)},
                                {"twice", static_cast<int>(options.twice)},
-                               {"what counts", wordsOfWhatCounts(options)},
+                               {"what counts", verdictOptions(options)},
                                {"explain", options.explain},
                                {"keep", static_cast<int>(options.keep)},
                                {"single_file", options.single_file}};

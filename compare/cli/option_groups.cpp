@@ -12,11 +12,11 @@
 namespace diptych::cli {
 
 void addBaseline(CLI::App& app, BaselineGroup& options, const char* help, const char* type) {
-    addOption(app, "--baseline", options.baseline_word, type, help);
+    addOption(app, "--baseline", options.baseline_text, type, help);
 }
 
 void resolveBaseline(BaselineGroup& options) {
-    const std::string& word = options.baseline_word;
+    const std::string& word = options.baseline_text;
     std::vector<std::string> names;
     for (const auto& [path, name] : enumNames<Path>()) {
         if (name == word) {
@@ -40,12 +40,12 @@ void addRenderers(CLI::App& app, RendererGroup& options, const char* does) {
 }
 
 void resolveRenderers(RendererGroup& options) {
-    for (const std::string& words : options.renderer_files) {
-        external::Renderer renderer = external::readRenderer(words);
+    for (const std::string& sentence : options.renderer_files) {
+        external::Renderer renderer = external::readRenderer(sentence);
         if (std::ranges::count(options.renderers, renderer.name, &external::Renderer::name) > 0)
             refuse("--renderer {}: two renderers have this name; give each its own", renderer.name);
         options.renderers.push_back(std::move(renderer));
-        options.renderer_words.insert(options.renderer_words.end(), {"--renderer", words});
+        options.renderer_texts.insert(options.renderer_texts.end(), {"--renderer", sentence});
     }
 }
 
@@ -60,12 +60,12 @@ void addSelection(CLI::App& app, SelectionGroup& options) {
     addOption(app, "--ignore-edges", selection.ignore_edges, "N",
               "exclude pixels within N pixels of another object")
         ->check(CLI::Range(0, 1000));
-    addOption(app, "--crop", options.crop_word, "X,Y,WxH",
+    addOption(app, "--crop", options.crop_text, "X,Y,WxH",
               "compare only this rectangle; X,Y from the top left");
 }
 
 void resolveSelection(SelectionGroup& options) {
-    if (!options.crop_word.empty()) options.selection.crop = cropOf(options.crop_word);
+    if (!options.crop_text.empty()) options.selection.crop = cropOf(options.crop_text);
 }
 
 void addTolerances(CLI::App& app, RulesGroup& options) {
@@ -83,14 +83,14 @@ void addTolerances(CLI::App& app, RulesGroup& options) {
 
 void addReport(CLI::App& app, KeepGroup& options) {
     app.option_defaults()->group(output_group);
-    addOption(app, "--keep", options.keep_word, "all|failing|none",
+    addOption(app, "--keep", options.keep_text, "all|failing|none",
               "comparisons whose pictures and EXRs the report keeps (all)");
     app.add_flag("--single-file", options.single_file,
                  "embed the pictures in the page at half size; other files only for CI");
 }
 
 void resolveKeep(KeepGroup& options) {
-    options.keep = valueNamed<Keep>("--keep", options.keep_word,
+    options.keep = valueNamed<Keep>("--keep", options.keep_text,
                                     {{{"all", Keep::all}, {"failing", Keep::failing}, {"none", Keep::none}}});
 }
 

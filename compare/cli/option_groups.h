@@ -15,7 +15,7 @@ namespace diptych::cli {
 struct BaselineGroup {
     Path baseline = Path::deferred;       // the left panel
     std::filesystem::path baseline_file;  // replaces the path; empty: none
-    std::string baseline_word = "deferred";
+    std::string baseline_text = "deferred";
 };
 void addBaseline(CLI::App& app, BaselineGroup& options, const char* help, const char* type);
 void resolveBaseline(BaselineGroup& options);
@@ -23,7 +23,7 @@ void resolveBaseline(BaselineGroup& options);
 // --renderer: compare, explain, tradeoff
 struct RendererGroup {
     std::vector<external::Renderer> renderers;
-    std::vector<std::string> renderer_words;  // words of the command line that name them
+    std::vector<std::string> renderer_texts;  // words of the command line that name them
     std::vector<std::string> renderer_files;  // NAME=FILE.json
 };
 // `does`: what the command does with an external renderer.
@@ -33,7 +33,7 @@ void resolveRenderers(RendererGroup& options);
 // The pixels that count: compare, view, diff
 struct SelectionGroup {
     SelectionOptions selection;
-    std::string crop_word;
+    std::string crop_text;
 };
 void addSelection(CLI::App& app, SelectionGroup& options);
 void resolveSelection(SelectionGroup& options);
@@ -49,7 +49,7 @@ void addTolerances(CLI::App& app, RulesGroup& options);
 struct KeepGroup {
     Keep keep = Keep::all;  // comparisons with kept images, EXRs
     bool single_file = false;
-    std::string keep_word = "all";
+    std::string keep_text = "all";
 };
 void addReport(CLI::App& app, KeepGroup& options);
 void resolveKeep(KeepGroup& options);

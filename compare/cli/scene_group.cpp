@@ -56,7 +56,7 @@ double timeOf(const std::string& word, const std::string& list) {
 }
 
 void resolveSettings(SettingsGroup& options) {
-    const auto& words = options.settings_words;
+    const auto& words = options.settings_text;
     Settings& settings = options.settings;
     if (!words.file.empty()) {
         const std::string text =
@@ -77,7 +77,7 @@ void resolveSettings(SettingsGroup& options) {
 }
 
 void resolveTimes(SettingsGroup& options) {
-    const auto& words = options.settings_words;
+    const auto& words = options.settings_text;
     options.times = {options.settings.time};
     if (words.times) {
         const std::string& list = *words.times;
@@ -108,7 +108,7 @@ void resolveTimes(SettingsGroup& options) {
 }
 
 void resolveChannels(ImageGroup& options) {
-    const auto& words = options.image_words;
+    const auto& words = options.image_text;
     options.debug_given = !words.debug.empty();
     if (options.debug_given) options.shown = channelNamed(words.debug, "--debug");
     if (options.heat) options.shown = Channel::light_count;
@@ -125,7 +125,7 @@ void checkExposure(const ImageChoice& image) {
 
 void addSettings(CLI::App& app, SettingsGroup& options, const std::string& except) {
     app.option_defaults()->group(pixel_group);
-    auto& parsed = options.settings_words;
+    auto& parsed = options.settings_text;
     const Settings defaults;
     for (const Field& field : settingFields()) {
         const std::string option(field.option);
@@ -155,7 +155,7 @@ void addSettings(CLI::App& app, SettingsGroup& options, const std::string& excep
 
 void addSides(CLI::App& app, SettingsGroup& options) {
     for (std::size_t side = 0; side < drawn_paths.size(); ++side)
-        addOption(app, sideOption(drawn_paths.at(side)), options.settings_words.sides.at(side),
+        addOption(app, sideOption(drawn_paths.at(side)), options.settings_text.sides.at(side),
                   "NAME=VALUE,...",
                   fmt::format("Settings of {} only, for example assign=every,shadows=off",
                               nameOf(drawn_paths.at(side))))
@@ -165,12 +165,12 @@ void addSides(CLI::App& app, SettingsGroup& options) {
 
 void addImage(CLI::App& app, ImageGroup& options) {
     app.option_defaults()->group(image_group);
-    addOption(app, "--debug", options.image_words.debug, "NAME|NUMBER",
+    addOption(app, "--debug", options.image_text.debug, "NAME|NUMBER",
               "channel that the picture shows (lit)");
     app.add_flag(
         "--heat", options.heat,
         "the picture shows the number of lights each pixel evaluates, with a legend; overrides --debug");
-    addOption(app, "--channels", options.image_words.channels, "NAME|NUMBER,...",
+    addOption(app, "--channels", options.image_text.channels, "NAME|NUMBER,...",
               "channels to render, separated by commas (all); render: one PNG each");
     app.add_flag("--list-channels", options.list_channels, "list all channels and exit");
     CLI::Option* exposure =

@@ -39,7 +39,7 @@ struct SettingsGroup {
         std::optional<std::string> times;
         std::optional<int> frames;
         std::optional<double> fps;
-    } settings_words;  // as parsed
+    } settings_text;  // as parsed
 };
 
 struct ImageGroup {
@@ -53,7 +53,7 @@ struct ImageGroup {
 
     struct {
         std::string debug, channels;
-    } image_words;  // as parsed
+    } image_text;  // as parsed
 };
 
 struct DeviceGroup {

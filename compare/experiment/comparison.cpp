@@ -160,7 +160,7 @@ Report reportOf(const Compared& compared, CompareOptions compare, DrawnScene dra
     const ReportDevice device = reportDevice(devices.device);
     compare.rules = rulesOfScene(compare.rules, first.scene);
     compare.texels = drawn.texels;
-    compare.renderer_words = compared.renderer_words;
+    compare.renderer_texts = compared.renderer_texts;
     std::vector<std::string> mismatches;
     if (baseline) {
         mismatches = baselineMismatches(*baseline, first, device);

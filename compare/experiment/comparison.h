@@ -26,7 +26,7 @@ struct Compared {
     Path baseline = Path::deferred;  // the left panel
     bool from_file = false;          // a file's Frame replaces it
     std::vector<external::Renderer> renderers{};
-    std::vector<std::string> renderer_words{};  // words of the command line that name them
+    std::vector<std::string> renderer_texts{};  // words of the command line that name them
 
     bool withReference() const { return isReference(baseline) && !from_file; }
     std::vector<Path> paths() const;

@@ -137,7 +137,7 @@ Cause causeOf(const SweepSkip& skip) {
     }
     const bool single = skip.tried.size() == 2 && skip.tried.front().option == "path";
     return single ? Cause{skip.reason, skip.tried.back().option, skip.tried.back().value}
-                  : Cause{skip.reason, "", inWords(skip.tried)};
+                  : Cause{skip.reason, "", describe(skip.tried)};
 }
 
 }  // namespace
@@ -191,7 +191,7 @@ SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
     if (sweep.rows.empty())
         throw std::runtime_error(sweep.skips.empty() ? "--grid: holds no combination of settings"
                                                      : fmt::format("nothing to sweep: {}: {}",
-                                                                   inWords(sweep.skips.front().tried),
+                                                                   describe(sweep.skips.front().tried),
                                                                    sweep.skips.front().reason));
     return sweep;
 }
@@ -220,11 +220,11 @@ std::vector<Change> changesOf(const Settings& row, const Settings& given) {
     return choices;
 }
 
-std::string inWords(const std::vector<Change>& choices) {
-    std::string words;
+std::string describe(const std::vector<Change>& choices) {
+    std::string text;
     for (const auto& [option, value] : choices)
-        words += (words.empty() ? "" : ", ") + (option == "path" ? value : option + " " + value);
-    return words;
+        text += (text.empty() ? "" : ", ") + (option == "path" ? value : option + " " + value);
+    return text;
 }
 
 Settings referenceFor(const Settings& given, const std::vector<Settings>& rows) {

@@ -53,6 +53,6 @@ std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 
 // Settings of a row that differ from `given`. The path comes first and is always included.
 std::vector<Change> changesOf(const Settings& row, const Settings& given);
-std::string inWords(const std::vector<Change>& choices);  // "deferred, gbuffer compact"
+std::string describe(const std::vector<Change>& choices);  // "deferred, gbuffer compact"
 
 }  // namespace diptych::experiment

@@ -98,10 +98,10 @@ Explained explained(const ExplanationQuestion& question, Device& device, ShownSc
     ExplainedImages of{right.scene, left.name, right.name};
     if (!file) {
         std::vector<std::string> words =
-            explainWords(right.scene, external ? left.settings : right.settings, left.settings.path, {});
+            explainArguments(right.scene, external ? left.settings : right.settings, left.settings.path, {});
         words = external ? withOption(std::move(words), "--renderer",
                                       fmt::format("{}={}", right.name, right.origin.file))
-                         : withWords(std::move(words), wordsOf(question.sides));
+                         : withArguments(std::move(words), wordsOf(question.sides));
         of.commands = {{"With a map of each cause",
                         shellLine(withOption(std::move(words), "-o", "diptych-explanation"))}};
     }
@@ -146,11 +146,11 @@ void addExplanations(const ExplanationQuestion& question, Device& device, Report
     checkValidation(device);
 }
 
-std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,
-                                      const std::vector<std::pair<std::string, std::string>>& test) {
+std::vector<std::string> explainArguments(const std::string& scene, const Settings& settings, Path baseline,
+                                          const std::vector<std::pair<std::string, std::string>>& test) {
     Settings given = settings;
     given.path = Settings().path;
-    std::vector<std::string> words = commandWords("explain", scene, given);
+    std::vector<std::string> words = commandArguments("explain", scene, given);
     if (!hasGBuffer(baseline))
         words = withOption(std::move(words), "--baseline", std::string(nameOf(baseline)));
     for (const auto& [option, value] : test)

@@ -32,7 +32,7 @@ void addExplanations(const ExplanationQuestion& question, Device& device, Report
 
 // Words of the command that explains a scene. The test is the other path or `test`, compared with
 // `baseline`.
-std::vector<std::string> explainWords(const std::string& scene, const Settings& settings, Path baseline,
-                                      const std::vector<std::pair<std::string, std::string>>& test);
+std::vector<std::string> explainArguments(const std::string& scene, const Settings& settings, Path baseline,
+                                          const std::vector<std::pair<std::string, std::string>>& test);
 
 }  // namespace diptych

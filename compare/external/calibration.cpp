@@ -60,7 +60,7 @@ NamedFactor namedFactor(double factor) {
         if (std::abs(std::log(factor / one.value)) < 0.06) return one;
     return {factor, nullptr};
 }
-std::string inWords(const NamedFactor& factor) {
+std::string describe(const NamedFactor& factor) {
     return factor.name ? factor.name : fmt::format("{:.3g}", factor.value);
 }
 
@@ -88,8 +88,8 @@ public:
 private:
     using Correction = nlohmann::ordered_json;
 
-    void say(std::string name, std::string words, Correction correction = Correction::object()) {
-        found_.push_back({std::move(name), std::move(words), std::move(correction)});
+    void say(std::string name, std::string text, Correction correction = Correction::object()) {
+        found_.push_back({std::move(name), std::move(text), std::move(correction)});
     }
 
     int idOf(const std::string& material) const {
@@ -184,8 +184,8 @@ private:
         if (response_->kind() == CurveKind::tone)
             say("tone_curve", "pixels have a tone curve; they should be linear");
         if (std::abs(std::log(response_->exposure())) > named_factor && response_->kind() != CurveKind::tone)
-            say("exposure",
-                fmt::format("all radiance is multiplied by {}", inWords(namedFactor(response_->exposure()))));
+            say("exposure", fmt::format("all radiance is multiplied by {}",
+                                        describe(namedFactor(response_->exposure()))));
         if (response_->cutOffAt() && response_->kind() == CurveKind::linear)
             say("cut_off", fmt::format("radiance is clipped at {:.3g}", *response_->cutOffAt()));
         if (!response_->primaries())
@@ -269,7 +269,7 @@ private:
     void sayFactor(const std::string& name, const std::string& what, double factor) {
         if (!(std::abs(std::log(factor)) > named_factor)) return;
         const NamedFactor named = namedFactor(factor);
-        say(name + "_factor", fmt::format("{} are {} times as bright as requested", what, inWords(named)),
+        say(name + "_factor", fmt::format("{} are {} times as bright as requested", what, describe(named)),
             {{name + "_factor", 1 / named.value}});
     }
 

@@ -52,7 +52,7 @@ struct Shown {
 //                             environment_factor, no_environment
 // `correction`: members of "granted" that correct it; empty if nothing does.
 struct Deviation {
-    std::string name, words;
+    std::string name, text;
     nlohmann::ordered_json correction = nlohmann::ordered_json::object();
 };
 
@@ -62,7 +62,7 @@ struct Deviation {
 std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const Shown> images);
 
 // The result, for a terminal and for scripts.
-std::string inWords(const Renderer& renderer, std::span<const Deviation> deviations);
+std::string describe(const Renderer& renderer, std::span<const Deviation> deviations);
 nlohmann::ordered_json toJson(const Renderer& renderer, std::span<const Deviation> deviations);
 
 }  // namespace diptych::external

@@ -177,7 +177,7 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
         frame.origin.external = true;
         frame.origin.left_out = std::move(image.origin.left_out);
         std::erase(frame.origin.left_out, "A");  // pixel coverage
-        frame.origin.granted = inWords(renderer.corrections);
+        frame.origin.granted = describe(renderer.corrections);
         frame.made_in_ms = ended.ms;
         for (const std::string& line : frame.origin.granted)
             frame.notes.push_back(fmt::format("{}: correction {}", renderer.name, line));

@@ -37,7 +37,7 @@ struct NumberCorrection {
     std::string_view name;
     double InputCorrections::*value;
     double neutral, least, most;
-    std::string_view words;  // {}: the number
+    std::string_view text;  // {}: the number
 };
 constexpr double largest_factor = 1e6;
 constexpr NumberCorrection numbers[] = {
@@ -60,7 +60,7 @@ constexpr NumberCorrection numbers[] = {
 struct FlagCorrection {
     std::string_view name;
     bool InputCorrections::*value;
-    std::string_view words;
+    std::string_view text;
 };
 constexpr FlagCorrection flags[] = {
     {"environment_mirrored", &InputCorrections::environment_mirrored,
@@ -131,7 +131,7 @@ void checkName(const std::string& name, const std::string& words) {
 
 }  // namespace
 
-std::vector<std::string> inWords(const InputCorrections& corrections) {
+std::vector<std::string> describe(const InputCorrections& corrections) {
     std::vector<std::string> lines;
     const auto& g = corrections;
     const bool alike = g.point_factor == g.spot_factor && g.point_factor == g.directional_factor &&
@@ -143,10 +143,10 @@ std::vector<std::string> inWords(const InputCorrections& corrections) {
         const bool ofLights = row.name.ends_with("_factor") && row.name != "environment_factor";
         if (corrections.*row.value != row.neutral && !(alike && ofLights))
             lines.push_back(fmt::format("{} {}: {}", row.name, corrections.*row.value,
-                                        fmt::format(fmt::runtime(row.words), corrections.*row.value)));
+                                        fmt::format(fmt::runtime(row.text), corrections.*row.value)));
     }
     for (const FlagCorrection& row : flags)
-        if (corrections.*row.value) lines.push_back(fmt::format("{}: {}", row.name, row.words));
+        if (corrections.*row.value) lines.push_back(fmt::format("{}: {}", row.name, row.text));
     if (corrections.transfer != Transfer::linear)
         lines.push_back(fmt::format("transfer {}: its pixels are decoded from this curve",
                                     wordOf(transfers, corrections.transfer)));

@@ -29,7 +29,7 @@ struct InputCorrections {
 };
 
 // One sentence per correction, for reports: "light_factor 2: ...".
-std::vector<std::string> inWords(const InputCorrections& corrections);
+std::vector<std::string> describe(const InputCorrections& corrections);
 
 // Allowed keys of "granted".
 std::vector<std::string_view> correctionNames();
@@ -47,7 +47,7 @@ struct Renderer {
 // Parses "NAME=FILE.json". A name has letters, digits, "-", "_" and dots, and is not reserved by reports.
 // Throws std::runtime_error, one line: "--renderer three: give NAME=FILE.json", "three.json: timeout:
 // ...".
-Renderer readRenderer(const std::string& words);
+Renderer readRenderer(const std::string& text);
 // Reads a file for `diptych calibrate`. The name is the file's stem.
 Renderer readRendererFile(const std::filesystem::path& file);
 

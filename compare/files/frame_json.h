@@ -31,8 +31,8 @@ template <class Value>
 nlohmann::ordered_json orNull(const std::optional<Value>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
-inline nlohmann::ordered_json orNull(const std::string& words) {
-    return words.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(words);
+inline nlohmann::ordered_json orNull(const std::string& text) {
+    return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
 }
 
 // `one` of each item.

@@ -137,15 +137,15 @@ struct Renaming {
     Names channels;
 };
 
-Renaming renamingOf(const std::string& words) {
+Renaming renamingOf(const std::string& text) {
     Renaming renaming;
-    const std::size_t equals = words.find('=');
-    std::istringstream list(equals == words.npos ? "" : words.substr(equals + 1));
+    const std::size_t equals = text.find('=');
+    std::istringstream list(equals == text.npos ? "" : text.substr(equals + 1));
     for (std::string channel; std::getline(list, channel, ',');) renaming.channels.push_back(channel);
     if (equals == 0 || renaming.channels.empty() || std::ranges::count(renaming.channels, "") > 0)
         fail(fmt::format("--map {}: give NAME=CHANNEL,CHANNEL,..., e.g. albedo=diffuse.R,diffuse.G,diffuse.B",
-                         words));
-    renaming.name = words.substr(0, equals);
+                         text));
+    renaming.name = text.substr(0, equals);
     return renaming;
 }
 
@@ -319,8 +319,8 @@ std::string setKind(ImageChannel& a, const ImageChannel& b) {
 std::vector<ImageChannel> channelsOf(ImageFile file, const std::vector<std::string>& names) {
     std::vector<ImageChannel> channels;
     Names used;
-    for (const std::string& words : names) {
-        for (const Renaming& renaming : spelledOut(file, renamingOf(words)))
+    for (const std::string& text : names) {
+        for (const Renaming& renaming : spelledOut(file, renamingOf(text)))
             if (auto channel = renamed(file, renaming)) {
                 used.insert(used.end(), renaming.channels.begin(), renaming.channels.end());
                 channels.push_back(std::move(*channel));
@@ -351,12 +351,12 @@ void checkNames(ImageFile& reference, ImageFile& test, const std::vector<std::st
             all.insert(all.end(), layer.channels.begin(), layer.channels.end());
         return oneLine(fmt::format("{}", fmt::join(all, ", ")));
     };
-    for (const std::string& words : names) {
-        const Renaming renaming = renamingOf(words);
+    for (const std::string& text : names) {
+        const Renaming renaming = renamingOf(text);
         if (!renamed(reference, spelledOut(reference, renaming)[0]) &&
             !renamed(test, spelledOut(test, renaming)[0]))
             fail(fmt::format(
-                "--map {}: neither file has these channels; the reference has {}, the test has {}", words,
+                "--map {}: neither file has these channels; the reference has {}, the test has {}", text,
                 channelsIn(reference), channelsIn(test)));
     }
 }

@@ -65,7 +65,7 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
     if (view.sun && settings.ibl_intensity > 0)
         frame.notes.push_back("environment: " +
                               (view.sun->found
-                                   ? "its sun is a light " + inWords(view.lights.back(), view.sun->share)
+                                   ? "its sun is a light " + describe(view.lights.back(), view.sun->share)
                                    : "--env-sun on: " + view.sun->why));
     frame.counters.lights = view.lights.size();
     return frame;
@@ -100,7 +100,7 @@ std::uint64_t nonfinitePixels(const Image& image) {
     return count;
 }
 
-std::optional<std::string> overflowInWords(const Image& lit, LitFormat format) {
+std::optional<std::string> overflowText(const Image& lit, LitFormat format) {
     if (format == LitFormat::fp32) return {};
     const std::array<float, 3> most = format == LitFormat::fp16 ? std::array{65504.0f, 65504.0f, 65504.0f}
                                                                 : std::array{65024.0f, 65024.0f, 64512.0f};
@@ -136,7 +136,7 @@ void addRepaired(Frame& frame, Channel channel, const std::vector<std::uint32_t>
     all = std::move(both);
 }
 
-std::vector<std::string> repairedInWords(const Frame& frame) {
+std::vector<std::string> repairedText(const Frame& frame) {
     std::vector<std::string> lines;
     const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
     for (const auto& [mode, pixels] : frame.repaired)

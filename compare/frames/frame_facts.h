@@ -35,7 +35,7 @@ ReportDevice reportDevice(const Device& device);
 std::uint64_t nonfinitePixels(const Image& image);
 
 // A note if some lit values reach or exceed the largest value of their format; else empty.
-std::optional<std::string> overflowInWords(const Image& lit, LitFormat format);
+std::optional<std::string> overflowText(const Image& lit, LitFormat format);
 
 // Replaces NaN by 0 and infinities by the largest float32 of their sign. Returns the indices of repaired
 // pixels.
@@ -46,7 +46,7 @@ void addRepaired(Frame& frame, Channel channel, const std::vector<std::uint32_t>
 
 // One line for each repaired channel: "lit had 3 pixel(s) that were NaN or infinite, the first at 4,2:
 // ...".
-std::vector<std::string> repairedInWords(const Frame& frame);
+std::vector<std::string> repairedText(const Frame& frame);
 
 // Median, minimum and maximum, ms.
 FrameTime timeOf(std::vector<double> ms);

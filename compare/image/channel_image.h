@@ -40,7 +40,7 @@ struct ImageScale {
     // The values shown as black and white in channels normalised to their range.
     double low = 0, high = 1;
     Exposure exposure;  // for radiance
-    std::string words;  // for the report: "grey, 0.4 to 12 m"
+    std::string text;   // for the report: "grey, 0.4 to 12 m"
 };
 ImageScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span<const Frame* const> frames);
 

@@ -29,8 +29,8 @@ void fill(Image8& image, int left, int top, int width, int height, const Rgb8& c
                       image.data.begin() + 3 * (std::ptrdiff_t{y} * image.width + x));
 }
 
-void write(Image8& image, std::string_view words, int left, int top, int size) {
-    for (const char c : words) {
+void write(Image8& image, std::string_view text, int left, int top, int size) {
+    for (const char c : text) {
         const std::size_t glyph = glyphs.find(c);
         for (int y = 0; y < 5; ++y)
             for (int x = 0; x < 3; ++x)
@@ -40,7 +40,7 @@ void write(Image8& image, std::string_view words, int left, int top, int size) {
     }
 }
 
-std::string words(double count) {
+std::string text(double count) {
     return count >= 10000 ? fmt::format("{:g}k", count / 1000) : fmt::format("{:g}", count);
 }
 
@@ -77,7 +77,7 @@ Image8 withHeatLegend(const Image8& plain, double top) {
     write(image, "LIGHTS PER PIXEL", margin, title, size);
     for (int x = 0; x < width; ++x) fill(image, margin + x, above, 1, bar, heatColor((x + 0.5) / width));
     for (const double part : {0.0, 0.5, 1.0}) {
-        const std::string label = words(part * top);
+        const std::string label = text(part * top);
         const int wide = static_cast<int>(label.size()) * 4 * size - size;
         write(image, label, margin + static_cast<int>(part * (width - wide)), line, size);
     }

@@ -31,16 +31,16 @@ std::size_t widthOf(std::string_view text) {
 }
 
 std::string wordsOf(const Text& text) {
-    std::string words;
+    std::string sentence;
     for (const Span& span : text.spans)
-        if (span.kind != Span::drawn) words += span.text;
-    return words;
+        if (span.kind != Span::drawn) sentence += span.text;
+    return sentence;
 }
 
 // For a terminal. A name with line breaks begins no line of its own; other controls are printOut()'s task.
-std::string lineOf(std::string words) {
-    for (std::size_t at; (at = words.find('\n')) != words.npos;) words.replace(at, 1, "\\u000a");
-    return words;
+std::string lineOf(std::string sentence) {
+    for (std::size_t at; (at = sentence.find('\n')) != sentence.npos;) sentence.replace(at, 1, "\\u000a");
+    return sentence;
 }
 std::string lineOf(const Text& text) {
     return lineOf(wordsOf(text));
@@ -121,10 +121,10 @@ std::string inText(const Table& table, std::size_t first, std::size_t last) {
     for (std::size_t at = first; at < std::min(last, lines.size()); ++at) {
         std::string line(table.indent, ' ');
         for (std::size_t i = 0; i < columns.size(); ++i) {
-            const std::string& words = lines[at][i];
-            const std::string pad(widths[i] - std::min(widths[i], widthOf(words)), ' ');
+            const std::string& sentence = lines[at][i];
+            const std::string pad(widths[i] - std::min(widths[i], widthOf(sentence)), ' ');
             const bool right = table.columns[columns[i]].kind == Column::number;
-            line += std::string(i > 0 ? table.gap : 0, ' ') + (right ? pad + words : words + pad);
+            line += std::string(i > 0 ? table.gap : 0, ' ') + (right ? pad + sentence : sentence + pad);
         }
         line.erase(line.find_last_not_of(' ') + 1);
         out += line + "\n";

@@ -37,15 +37,15 @@ std::string line(std::string_view kind, double x1, double y1, double x2, double 
                        length(y2));
 }
 
-std::string text(std::string_view kind, double x, double y, const std::string& words) {
-    if (words.empty()) return {};
+std::string text(std::string_view kind, double x, double y, const std::string& sentence) {
+    if (sentence.empty()) return {};
     return fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>", kind, length(x), length(y),
-                       markup(words));
+                       markup(sentence));
 }
 
 std::string rect(const std::string& kind, double left, double top, double right, double bottom,
-                 const std::string& words = {}) {
-    const std::string title = words.empty() ? "" : "<title>" + markup(words) + "</title>";
+                 const std::string& sentence = {}) {
+    const std::string title = sentence.empty() ? "" : "<title>" + markup(sentence) + "</title>";
     return fmt::format("<rect class=\"{}\" x=\"{:.2f}\" y=\"{}\" width=\"{:.2f}\" height=\"{}\">{}</rect>",
                        kind, left, length(top), right - left, length(bottom - top), title);
 }
@@ -98,7 +98,7 @@ public:
         for (const PlotBar& bar : panel_.bars)
             out += rect(partClass(bar), across_.at(bar.across.low),
                         std::min(up_.at(bar.up.low), up_.at(bar.up.high)), across_.at(bar.across.high),
-                        std::max(up_.at(bar.up.low), up_.at(bar.up.high)), bar.words);
+                        std::max(up_.at(bar.up.low), up_.at(bar.up.high)), bar.text);
         for (const PlotLimit& limit : panel_.limits) {
             if (limit.x)
                 out += line(limitClass(limit), across_.at(*limit.x), box_.top, across_.at(*limit.x),
@@ -187,14 +187,14 @@ private:
 
     std::string pointOf(const PlotSeries& series, const PlotPoint& point) const {
         const double x = across_.at(point.x), y = up_.at(point.y);
-        const std::string words = markup(point.words);
+        const std::string sentence = markup(point.text);
         std::string out = point.best ? "<g class=\"point best\"" : "<g class=\"point\"";
         if (point.row > 0) out += fmt::format(" data-row=\"{}\"", point.row);
         if (point.row > 0 && !file_)
             out += fmt::format(" tabindex=\"0\" role=\"{}\" aria-label=\"{}\"",
-                               plot_.chooses ? "button" : "img", words);
+                               plot_.chooses ? "button" : "img", sentence);
         out += ">";
-        if (file_ || !plot_.chooses) out += "<title>" + words + "</title>";
+        if (file_ || !plot_.chooses) out += "<title>" + sentence + "</title>";
         std::string bars;
         if (point.across.low < point.across.high)
             bars += line("bar", across_.at(point.across.low), y, across_.at(point.across.high), y);

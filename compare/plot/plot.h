@@ -27,7 +27,7 @@ struct PlotRange {
 
 struct PlotPoint {
     double x = 0, y = 0;
-    std::string words{};       // tooltip
+    std::string text{};        // tooltip
     PlotRange across{}, up{};  // intervals
     std::size_t row = 0;       // data-row; in a page, the point can have the focus. 0: none
     bool best = false;         // filled and larger, on top
@@ -45,7 +45,7 @@ struct PlotSeries {
 struct PlotBar {
     PlotRange across, up;
     std::size_t part;  // its colour, below mostParts
-    std::string words;
+    std::string text;
     bool beyond = false;  // in a limit's colour instead
 };
 inline constexpr std::size_t mostParts = 8;  // the last colour is grey

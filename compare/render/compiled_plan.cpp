@@ -111,7 +111,7 @@ std::vector<PlannedPipeline> planned(const DeviceCompiler& compiler,
     std::vector<CompiledPipeline> compiled = compiler.compile(requests);
     std::vector<PlannedPipeline> all;
     for (std::size_t i = 0; i < requests.size(); ++i)
-        all.push_back({requests[i].pass, captures, requests[i].name(), inWords(requests[i].variant()),
+        all.push_back({requests[i].pass, captures, requests[i].name(), describe(requests[i].variant()),
                        std::move(compiled[i])});
     return all;
 }
@@ -137,7 +137,7 @@ CompiledPath compilePath(Device& device, DeviceCompiler& compiler, SharedResourc
 
 }  // namespace
 
-std::string inWords(const Variant& variant) {
+std::string describe(const Variant& variant) {
     std::vector<std::string> on;
     for (const FeatureRow& row : featureRows)
         if (const gpu::uint value = variant.get(row.id); value != 0)

@@ -49,6 +49,6 @@ std::vector<CompiledPath> compilePaths(Device& device, DeviceCompiler& compiler,
 void judge(CompiledPath& path);
 
 // The enabled features of the variant.
-std::string inWords(const Variant& variant);
+std::string describe(const Variant& variant);
 
 }  // namespace diptych

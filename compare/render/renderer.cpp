@@ -53,7 +53,7 @@ public:
             kernels_ = prepared_.passes.kernelResults(0, prepared_.passes.size());
         lit_ = readLit(prepared_);
         readCounters(prepared_.view, frame_.counters);
-        if (auto cut = overflowInWords(lit_, settings_.lit_format)) frame_.notes.push_back(std::move(*cut));
+        if (auto cut = overflowText(lit_, settings_.lit_format)) frame_.notes.push_back(std::move(*cut));
         if (auto repaired = repairNonfinite(lit_); !repaired.empty()) {
             frame_.counters.nonfinite_pixels = repaired.size();
             if (isRequested(Channel::lit)) frame_.repaired[Channel::lit] = std::move(repaired);

@@ -105,7 +105,7 @@ private:
 
     // Legend of the images' colours.
     std::string scaleLegend() const {
-        if (!isHeat(*channel_.mode)) return "<span>" + markup(images_.scale.words) + "</span>";
+        if (!isHeat(*channel_.mode)) return "<span>" + markup(images_.scale.text) + "</span>";
         std::string stops;
         for (int i = 0; i <= 10; ++i) stops += ", " + hex(heatColor(i / 10.0));
         return fmt::format(

@@ -29,13 +29,13 @@ std::string beside(const Criterion& c, double value, double other) {
     return digitsApart(value, (c.least ? c.measured < c.limit : c.measured > c.limit) ? other : value);
 }
 
-std::string explainedWords(const ChannelDiff& channel) {
-    std::string words = fmt::format("explained by the encoding: largest error {}, mean {}",
-                                    page::number(channel.stats.max), page::number(channel.stats.mean));
-    if (channel.flip) words += fmt::format(", FLIP {}", page::number(*channel.flip));
+std::string explainedText(const ChannelDiff& channel) {
+    std::string sentence = fmt::format("explained by the encoding: largest error {}, mean {}",
+                                       page::number(channel.stats.max), page::number(channel.stats.mean));
+    if (channel.flip) sentence += fmt::format(", FLIP {}", page::number(*channel.flip));
     if (channel.encoding_use)
-        words += fmt::format(", at most {} of a pixel's bound", percentText(channel.encoding_use->used));
-    return words;
+        sentence += fmt::format(", at most {} of a pixel's bound", percentText(channel.encoding_use->used));
+    return sentence;
 }
 
 // The deciding metric is below the name on pages too narrow for its column.
@@ -149,7 +149,7 @@ Text findingOf(const ChannelDiff& channel, const std::string& card) {
     else if (s.different == 0)
         text.spans.emplace_back("equal at every pixel");
     else if (channel.unexplained_pixels && channel.rule.empty())
-        text.spans.emplace_back(explainedWords(channel));
+        text.spans.emplace_back(explainedText(channel));
     else if (const auto& c = channel.criterion)
         text.spans.emplace_back(
             fmt::format("{} {}, {} {} allowed", c->metric, beside(*c, c->measured, c->limit),

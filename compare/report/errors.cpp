@@ -47,11 +47,11 @@ std::string histogram(const ChannelDiff& channel, const ChannelImages& images) {
         const double left = errors.edge(i), right = errors.edge(i + 1),
                      cut = beyond ? std::clamp(*limit, left, right) : right;
         const PlotRange up{0, static_cast<double>(count)};
-        const std::string words = fmt::format(
+        const std::string text = fmt::format(
             "{} to {}: {}{}", size(left), size(right), counted(count, "pixel"),
             i == 0 && errors.smaller > 0 ? fmt::format(", {} of them below", errors.smaller) : "");
-        if (left < cut) panel.bars.push_back({{left, cut}, up, limit ? 0 : mostParts - 1, words});
-        if (cut < right) panel.bars.push_back({{cut, right}, up, 0, words, true});
+        if (left < cut) panel.bars.push_back({{left, cut}, up, limit ? 0 : mostParts - 1, text});
+        if (cut < right) panel.bars.push_back({{cut, right}, up, 0, text, true});
     }
     if (limit && *limit > 0)
         panel.limits.push_back(
@@ -60,14 +60,14 @@ std::string histogram(const ChannelDiff& channel, const ChannelImages& images) {
                                  *limit > last    ? ", beyond the right edge"
                                  : *limit < first ? ", beyond the left edge"
                                                   : "")});
-    std::string words = fmt::format("{} of {} pixels are equal", errors.equal, all);
-    if (errors.infinite > 0) words += fmt::format("; {} have an infinite error", errors.infinite);
+    std::string text = fmt::format("{} of {} pixels are equal", errors.equal, all);
+    if (errors.infinite > 0) text += fmt::format("; {} have an infinite error", errors.infinite);
     if (!limit && channel.criterion)
-        words += fmt::format("; the limit applies to {}, not to these errors", channel.criterion->metric);
+        text += fmt::format("; the limit applies to {}, not to these errors", channel.criterion->metric);
     return fmt::format(
         "<figure class=\"histogram\">{}<figcaption>{}</figcaption></figure>\n",
         svgOf({.title = "histogram of error", .panels = {panel}, .height = 240}, PlotPlace::page),
-        markup(words));
+        markup(text));
 }
 
 std::string worstList(const ChannelDiff& channel, const ChannelImages& images, const std::string& id) {

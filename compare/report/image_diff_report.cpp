@@ -140,7 +140,7 @@ void writeDiffs(std::span<ImageDiff> diffs, const std::filesystem::path& folder,
     for (std::size_t i = 0; i < diffs.size(); ++i) {
         addImages(report, report.comparisons[i], diffs[i]);
         report.comparisons[i].command = withOption(
-            withWords({"diff", diffs[i].reference, diffs[i].test}, words), "-o", againFolder(folder));
+            withArguments({"diff", diffs[i].reference, diffs[i].test}, words), "-o", againFolder(folder));
     }
     writeReport(report, folder, options);
 }

@@ -25,8 +25,8 @@ std::string shellWord(const std::string& word) {
     return quoted + "'";
 }
 
-std::vector<std::string> commandWords(const std::string& command, const std::string& scene,
-                                      const Settings& settings) {
+std::vector<std::string> commandArguments(const std::string& command, const std::string& scene,
+                                          const Settings& settings) {
     std::vector<std::string> words{command};
     const Settings defaults;
     for (const Field& field : settingFields()) {
@@ -50,7 +50,7 @@ std::vector<std::string> withOption(std::vector<std::string> words, const std::s
     return words;
 }
 
-std::vector<std::string> withWords(std::vector<std::string> words, const std::vector<std::string>& more) {
+std::vector<std::string> withArguments(std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.begin() + 1, more.begin(), more.end());
     return words;
 }
@@ -62,7 +62,7 @@ std::string shellLine(const std::vector<std::string>& words) {
 }
 
 std::string commandOf(const std::string& command, const std::string& scene, const Settings& settings) {
-    return shellLine(commandWords(command, scene, settings));
+    return shellLine(commandArguments(command, scene, settings));
 }
 
 }  // namespace diptych

@@ -27,8 +27,8 @@
 namespace diptych {
 namespace {
 
-std::mutex lastWordsMutex;
-std::string lastWords;
+std::mutex lastMessageMutex;
+std::string lastMessage;
 
 std::mutex supervisedMutex;
 std::map<int, int> lifelines;  // key: process ID of the supervisor
@@ -105,8 +105,8 @@ void killTree(pid_t supervisor) {
 }  // namespace
 
 void sayWhenInterrupted(const std::string& line) {
-    const std::lock_guard lock(lastWordsMutex);
-    lastWords = line;
+    const std::lock_guard lock(lastMessageMutex);
+    lastMessage = line;
 }
 
 void endSupervised(int lifeline, int supervisor) {
@@ -149,8 +149,8 @@ void watchInterruption() {
         abandonTemporaries();
         wipeProgress();
         {
-            const std::lock_guard lock(lastWordsMutex);
-            if (!lastWords.empty()) printMessage(lastWords);
+            const std::lock_guard lock(lastMessageMutex);
+            if (!lastMessage.empty()) printMessage(lastMessage);
         }
         dieOf(signal);
     }).detach();

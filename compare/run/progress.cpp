@@ -71,15 +71,15 @@ void Progress::at(const std::string& what, double fraction, const std::string& s
     const ProgressOutput::Time now = output_->now();
     if (now < next_) return;
     next_ = now + (output_->terminal ? pause : std::chrono::milliseconds(logPause));
-    const std::string words = withTime(step, timeLeft(now - start_, furthest_));
+    const std::string sentence = withTime(step, timeLeft(now - start_, furthest_));
     if (!output_->terminal)
-        return output_->write(
-            messageLine(fmt::format("diptych: {}: {:.0f} % {}", what, std::floor(furthest_ * 100), words)) +
-            "\n");
+        return output_->write(messageLine(fmt::format("diptych: {}: {:.0f} % {}", what,
+                                                      std::floor(furthest_ * 100), sentence)) +
+                              "\n");
     shown_ = true;
     // Leaves one column free: a full line would wrap.
     const std::size_t columns = output_->columns() - 1;
-    output_->write(wipeLine + oneLine(progressLine(what, furthest_, words, columns), columns));
+    output_->write(wipeLine + oneLine(progressLine(what, furthest_, sentence, columns), columns));
 }
 
 void Progress::wipe() {

@@ -23,9 +23,9 @@ std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t metric, std::opti
             .push_back(
                 {.x = row[Measure::ms],
                  .y = error.value,
-                 .words = fmt::format("row {}: {}; {:.4g} ms, {} {}{}", i + 1,
-                                      inWords(changesOf(row.settings, tradeoff.given)), row[Measure::ms],
-                                      title, page::number(error.value), best ? ", on the front" : ""),
+                 .text = fmt::format("row {}: {}; {:.4g} ms, {} {}{}", i + 1,
+                                     describe(changesOf(row.settings, tradeoff.given)), row[Measure::ms],
+                                     title, page::number(error.value), best ? ", on the front" : ""),
                  .across = {row[Measure::ms_min], row[Measure::ms_max]},
                  .up = {error.low, error.high},
                  .row = i + 1,

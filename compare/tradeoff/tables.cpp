@@ -55,13 +55,13 @@ output::Row rowOf(const Tradeoff& tradeoff, std::size_t index, const std::string
 }
 
 // A row's Settings with `option`, even at its given value.
-std::string settingsInWords(const Tradeoff& tradeoff, std::size_t row, std::string_view option) {
+std::string settingsText(const Tradeoff& tradeoff, std::size_t row, std::string_view option) {
     const Settings& settings = tradeoff.rows[row].settings;
     std::vector<Change> choices = changesOf(settings, tradeoff.given);
     const auto named = [&](const Change& choice) { return choice.option == option; };
     if (std::ranges::none_of(choices, named))
         choices.insert(choices.begin() + 1, {std::string(option), settings.valueOf(option)});
-    return inWords(choices);
+    return describe(choices);
 }
 
 // Rows on the front of time and each error.
@@ -74,7 +74,7 @@ output::Table sweepHead() {
 }
 
 output::Row sweepRow(const Tradeoff& tradeoff, std::size_t index, const Fronts& fronts) {
-    output::Row row = rowOf(tradeoff, index, inWords(tradeoff.rows[index], tradeoff.given), sweepMeasures);
+    output::Row row = rowOf(tradeoff, index, describe(tradeoff.rows[index], tradeoff.given), sweepMeasures);
     std::vector<std::string_view> on;
     for (std::size_t f = 0; f < errorMetrics.size(); ++f)
         if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorMetrics[f].title);
@@ -116,7 +116,7 @@ output::Table frontTable(const Tradeoff& tradeoff, std::size_t metric) {
     table.sortable = false;
     table.box = "box scroll";
     for (const std::size_t i : frontOf(tradeoff, metric))
-        table.rows.push_back(rowOf(tradeoff, i, inWords(tradeoff.rows[i], tradeoff.given), shown));
+        table.rows.push_back(rowOf(tradeoff, i, describe(tradeoff.rows[i], tradeoff.given), shown));
     return table;
 }
 
@@ -153,8 +153,7 @@ std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff) {
     output::Table table = headOf(shown);
     table.columns.push_back({"dominated in", Column::words, 12});
     for (const ShadowRow& row : shadowRowsOf(tradeoff))
-        table.rows
-            .emplace_back(rowOf(tradeoff, row.row, settingsInWords(tradeoff, row.row, "shadows"), shown))
+        table.rows.emplace_back(rowOf(tradeoff, row.row, settingsText(tradeoff, row.row, "shadows"), shown))
             .cells.emplace_back(beatenIn(row));
     return blocksOf(
         "Sun shadow, compared with traced rays",
@@ -169,7 +168,7 @@ std::vector<output::Block> sampleBlocks(const Tradeoff& tradeoff) {
     output::Table table = headOf(shown);
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i)
         if (tradeoff.rows[i].measured.has(Measure::shaded))
-            table.rows.push_back(rowOf(tradeoff, i, settingsInWords(tradeoff, i, "msaa-edges"), shown));
+            table.rows.push_back(rowOf(tradeoff, i, settingsText(tradeoff, i, "msaa-edges"), shown));
     return blocksOf("Samples that deferred lighting shades",
                     "With multisampling, --msaa-edges selects the samples of a pixel that are shaded "
                     "separately. Exact shades each sample that differs in any G-buffer bit, so its picture "
@@ -234,7 +233,7 @@ TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Setting
                              bool commands)
     : head_(sweepHead()), words_(std::string_view("settings").size()), commands_(commands) {
     for (const Settings& row : rows)
-        words_ = std::max(words_, inWords(changesOf(row, tradeoff.given)).size());
+        words_ = std::max(words_, describe(changesOf(row, tradeoff.given)).size());
     std::size_t width = 0;
     for (const Column& column : head_.columns)
         if (column.kind == Column::number) width += column.width + head_.gap;
@@ -255,7 +254,7 @@ std::string TradeoffTable::line(const Tradeoff& tradeoff, std::size_t index) con
     const TradeoffRow& row = tradeoff.rows[index];
     output::Table table = head_;
     table.rows = {sweepRow(tradeoff, index, {})};
-    if (const std::string words = inWords(row, tradeoff.given); words.size() > words_)
+    if (const std::string words = describe(row, tradeoff.given); words.size() > words_)
         table.rows[0].cells[1] = words.substr(0, words_ - 3) + "...";
     std::string line = inText(table, 1);
     if (commands_)

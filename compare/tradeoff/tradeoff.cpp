@@ -18,7 +18,7 @@ std::vector<std::string> withCameras(std::vector<std::string> words, const Trade
     for (const std::string& camera : tradeoff.cameras) {
         cameras.emplace_back("--camera=" + camera);
     }
-    return withWords(std::move(words), cameras);
+    return withArguments(std::move(words), cameras);
 }
 
 // Settings for a command with the sweep's reference. Choices of the row that would change the reference go
@@ -49,8 +49,8 @@ AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& r
 
 }  // namespace
 
-std::string inWords(const TradeoffRow& row, const Settings& given) {
-    return row.renderer.empty() ? inWords(changesOf(row.settings, given))
+std::string describe(const TradeoffRow& row, const Settings& given) {
+    return row.renderer.empty() ? describe(changesOf(row.settings, given))
                                 : fmt::format("{}, external renderer", row.renderer);
 }
 
@@ -107,7 +107,7 @@ namespace {
 std::string commandOfRenderer(const char* command, const Tradeoff& tradeoff, const TradeoffRow& row,
                               const char* option, const char* value) {
     const std::vector<std::string> words = withOption(
-        withCameras(commandWords(command, tradeoff.scene, tradeoff.given), tradeoff), option, value);
+        withCameras(commandArguments(command, tradeoff.scene, tradeoff.given), tradeoff), option, value);
     return shellLine(withOption(words, "--renderer", fmt::format("{}={}", row.renderer, row.renderer_file)));
 }
 
@@ -117,7 +117,7 @@ std::string measuringCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
     if (!row.renderer.empty())
         return commandOfRenderer("tradeoff", tradeoff, row, "--grid", R"({"settings":{}})");
     const AgainstReference against = againstReference(tradeoff, row);
-    std::vector<std::string> words = commandWords("tradeoff", tradeoff.scene, against.settings);
+    std::vector<std::string> words = commandArguments("tradeoff", tradeoff.scene, against.settings);
     words = withOption(withCameras(std::move(words), tradeoff), "--grid", against.grid);
     if (tradeoff.runs != 5) words = withOption(std::move(words), "--runs", fmt::format("{}", tradeoff.runs));
     return shellLine(words);
@@ -134,7 +134,7 @@ std::string comparingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
         if (other.problem()) return {};
     }
     return shellLine(
-        withOption(withCameras(commandWords("compare", tradeoff.scene, against.settings), tradeoff),
+        withOption(withCameras(commandArguments("compare", tradeoff.scene, against.settings), tradeoff),
                    "--baseline", "reference"));
 }
 
@@ -142,7 +142,7 @@ std::string renderingCommand(const Tradeoff& tradeoff, const TradeoffRow& row) {
     if (!row.renderer.empty()) return {};
     Settings settings = row.settings;
     if (tradeoff.cameras.size() > 1) settings.camera.clear();
-    return shellLine(withCameras(commandWords("render", tradeoff.scene, settings), tradeoff));
+    return shellLine(withCameras(commandArguments("render", tradeoff.scene, settings), tradeoff));
 }
 
 }  // namespace diptych::tradeoff

@@ -19,10 +19,10 @@ namespace diptych::tradeoff {
 
 using experiment::Change;
 using experiment::changesOf;
+using experiment::describe;
 using experiment::errorMetrics;
 using experiment::Errors;
 using experiment::groupsOf;
-using experiment::inWords;
 using experiment::Measure;
 using experiment::sampleMetrics;
 using experiment::SampleShares;
@@ -69,7 +69,7 @@ struct Tradeoff {
 };
 
 // A row as text: Settings that differ from the given ones, or the external renderer.
-std::string inWords(const TradeoffRow& row, const Settings& given);
+std::string describe(const TradeoffRow& row, const Settings& given);
 
 // Indices of one path's rows, or of all rows but external ones; frontOf(): those on the Pareto front of
 // time and one error.

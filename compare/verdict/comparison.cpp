@@ -52,7 +52,7 @@ void readCounters(const Frame& frame, Comparison& comparison) {
     if (counters.nonfinite_pixels > 0)
         comparison.failures.push_back(fmt::format("{}: lit is NaN or infinite at {}", frame.name,
                                                   counted(counters.nonfinite_pixels, "pixel")));
-    for (const std::string& line : repairedInWords(frame))
+    for (const std::string& line : repairedText(frame))
         comparison.failures.push_back(frame.name + ": " + line);
 }
 
@@ -94,7 +94,7 @@ void noteSides(const Frame& left, const Frame& right, Comparison& comparison) {
     comparison.differing = settingDifferences(left.settings, right.settings);
     if (!comparison.differing.empty())
         comparison.notes.push_back(fmt::format("{} and {} have different Settings: {}", left.name, right.name,
-                                               inWords(comparison.differing)));
+                                               describe(comparison.differing)));
 }
 
 // The forward+ Frame of the pair's scene and camera that shows the effect of the encoding.
@@ -139,7 +139,7 @@ void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
     if (std::string fault = surfaces.fault(); !fault.empty())
         comparison.failures.push_back(std::move(fault));
     else
-        comparison.notes.push_back(surfaces.inWords());
+        comparison.notes.push_back(surfaces.describe());
     std::ranges::transform(comparison.coverage.covered, surfaces.others, comparison.coverage.covered.begin(),
                            [](auto covered, auto other) { return other != 0 ? 0 : covered; });
     comparison.coverage.count -= surfaces.count();

@@ -70,7 +70,7 @@ struct CompareOptions {
     std::vector<Rule> rules;         // replace the derived tolerances of channels that they name
     SelectionOptions selection;      // pixels
     std::vector<std::string> words;  // words of the command line that set the above; repeated in commands
-    std::vector<std::string> renderer_words{};  // likewise, only for images of external renderers
+    std::vector<std::string> renderer_texts{};  // likewise, only for images of external renderers
     bool allow_noise = false;  // on a GPU: adds the difference of two runs of one path to tolerances
     // Fail if only one side has a channel: any channel (`strict`) or those requested by name (`required`).
     // `strict` also fails if the images show hardly anything.

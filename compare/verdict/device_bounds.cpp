@@ -267,16 +267,16 @@ std::string DeviceBounds::because() const {
         case Kind::place:
             return placed + fmt::format("; plus {:.2g} of the value for rounding", relativeRounding());
         case Kind::surface: {
-            std::string words = placed;
+            std::string text = placed;
             if (texels_)
-                words += "; filter weights have " +
-                         fmt::format("{} and {} bits", a.sub_texel_bits, b.sub_texel_bits) +
-                         "; Vulkan does not fix the level of detail, so each device may return any mean of "
-                         "the texels in reach" +
-                         decoding();
+                text += "; filter weights have " +
+                        fmt::format("{} and {} bits", a.sub_texel_bits, b.sub_texel_bits) +
+                        "; Vulkan does not fix the level of detail, so each device may return any mean of "
+                        "the texels in reach" +
+                        decoding();
             if (bits_ > 0)
-                words += fmt::format("; plus the quantization bound of both G-buffers, {:.3g}", bits_);
-            return words;
+                text += fmt::format("; plus the quantization bound of both G-buffers, {:.3g}", bits_);
+            return text;
         }
         case Kind::pane:
             return "surfaces with transmission, drawn over others: no more than neighbouring pixels differ" +

@@ -93,7 +93,8 @@ std::vector<std::string> commandOf(const Frame& shown, const Frame& panel,
     const bool drawn = panel.origin.file.empty();  // else `words` have the file
     const Settings settings =
         drawn && isReferenceFrame(panel) ? withReferenceOf(shown.settings, panel.settings) : shown.settings;
-    std::vector<std::string> command = withWords(commandWords("compare", shown.scene, settings), words);
+    std::vector<std::string> command =
+        withArguments(commandArguments("compare", shown.scene, settings), words);
     if (!drawn || hasGBuffer(panel.settings.path)) return command;
     return withOption(command, "--baseline", std::string(nameOf(panel.settings.path)));
 }
@@ -112,7 +113,7 @@ void compareAll(Report& report, const std::vector<Planned>& pairs, const Compare
         const Frame &shown = report.frames[pair.shown], &panel = report.frames[pair.panel];
         std::vector<std::string> words = options.words;
         if (shown.origin.external)
-            words.insert(words.end(), options.renderer_words.begin(), options.renderer_words.end());
+            words.insert(words.end(), options.renderer_texts.begin(), options.renderer_texts.end());
         comparison.command = commandOf(shown, panel, words);
         if (!pair.inspected) continue;
         comparison.visual_checks = std::move(pair.view->checks);

@@ -117,11 +117,11 @@ void applyEdges(Coverage& coverage, int width, int height, int radius, const Obj
 
 }  // namespace
 
-Crop cropOf(const std::string& words) {
+Crop cropOf(const std::string& text) {
     Crop crop;
     int* const parts[] = {&crop.x, &crop.y, &crop.width, &crop.height};
     const char* const separators = ",,x";
-    const char *at = words.data(), *end = at + words.size();
+    const char *at = text.data(), *end = at + text.size();
     bool sound = true;
     for (int i = 0; i < 4 && sound; ++i) {
         const auto [next, error] = std::from_chars(at, end, *parts[i]);
@@ -129,7 +129,7 @@ Crop cropOf(const std::string& words) {
         sound = sound && (i == 3 ? next == end : next != end && *next == separators[i]);
         at = next + 1;
     }
-    if (!sound) throw std::runtime_error(fmt::format("--crop {}: give X,Y,WxH in pixels", words));
+    if (!sound) throw std::runtime_error(fmt::format("--crop {}: give X,Y,WxH in pixels", text));
     return crop;
 }
 

@@ -26,7 +26,7 @@ struct SelectionOptions {
 };
 
 // "X,Y,WxH". Throws std::runtime_error on other input.
-Crop cropOf(const std::string& words);
+Crop cropOf(const std::string& text);
 
 // Planes that distinguish objects: ids, or else view depth; nullptr if an image lacks them.
 struct ObjectPlanes {

@@ -202,16 +202,16 @@ std::string SurfacePixels::fault() const {
     return {};
 }
 
-std::string SurfacePixels::inWords() const {
-    std::string words = fmt::format(
+std::string SurfacePixels::describe() const {
+    std::string text = fmt::format(
         "not compared: {} where the other device shows another triangle, all beside an edge (tolerance: {} "
         "of {})",
         counted(triangles.count, "pixel"), triangles.most, triangles.edges);
     if (shadows.edges > 0)
-        words += fmt::format("; {} in another shadow, all beside a shadow boundary (tolerance: {} of {})",
-                             shadows.count, shadows.most, shadows.edges);
-    if (tied > 0) words += fmt::format("; {} where two surfaces have the same depth", tied);
-    return words;
+        text += fmt::format("; {} in another shadow, all beside a shadow boundary (tolerance: {} of {})",
+                            shadows.count, shadows.most, shadows.edges);
+    if (tied > 0) text += fmt::format("; {} where two surfaces have the same depth", tied);
+    return text;
 }
 
 }  // namespace diptych

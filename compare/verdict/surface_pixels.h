@@ -31,7 +31,7 @@ struct SurfacePixels {
 
     std::uint64_t count() const { return triangles.count + shadows.count + tied; }
     std::string fault() const;  // empty if all of it is permitted
-    std::string inWords() const;
+    std::string describe() const;
 };
 SurfacePixels surfacePixels(const FramePair& pair);
 

@@ -422,7 +422,7 @@ private:
                                .progress = stage("this pixel")};
         auto next = std::make_shared<Breakdown>(
             Breakdown{both_, *order_.pixel, pixelBreakdown(pair_.renderer(), pair_.views(), query), {}});
-        next->words = inText(blocksOf(next->breakdown));
+        next->text = inText(blocksOf(next->breakdown));
         broken_down_ = std::pair(both_, *order_.pixel);
         const std::lock_guard lock(box_.mutex);
         box_.breakdown = std::move(next);

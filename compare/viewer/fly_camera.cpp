@@ -67,7 +67,7 @@ void FlyCamera::orbit(const glm::dvec3& pivot, double right, double up) {
     eye_ = pivot + this->right() * own.x + upOf() * own.y + forward() * own.z;
 }
 
-std::string FlyCamera::words() const {
+std::string FlyCamera::describe() const {
     const glm::dvec3 target = eye_ + forward() * reach_;
     return fmt::format(
         "eye={:.9g},{:.9g},{:.9g} target={:.9g},{:.9g},{:.9g} fov={:.9g} near={:.9g} far={:.9g}", eye_.x,

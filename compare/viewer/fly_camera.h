@@ -30,7 +30,7 @@ public:
     void orbit(const glm::dvec3& pivot, double right, double up);
 
     // "eye=x,y,z target=x,y,z fov=deg near=m far=m"; 9 digits resolve a millimetre in a megametre.
-    std::string words() const;
+    std::string describe() const;
 
     const glm::dvec3& eye() const { return eye_; }
     glm::dvec3 forward() const;  // unit, world

@@ -97,15 +97,15 @@ DifferencePanel measured(const DebugMode& mode, const Image& baseline, const Ima
         case Difference::signed_difference:
             panel.is_signed = true;
             panel.values = signedErrors(baseline, test, covered);
-            panel.words = "right - left, the largest component" + unitOf(mode);
+            panel.text = "right - left, the largest component" + unitOf(mode);
             break;
         case Difference::absolute:
             panel.values = errorImage(ErrorKind::absolute, mode.kind, baseline, test, covered);
-            panel.words = "|right - left|, the largest component" + unitOf(mode);
+            panel.text = "|right - left|, the largest component" + unitOf(mode);
             break;
         case Difference::relative:
             panel.values = errorImage(ErrorKind::relative, mode.kind, baseline, test, covered);
-            panel.words = "|right - left| / max(|left|, 1e-3 of the mean)";
+            panel.text = "|right - left| / max(|left|, 1e-3 of the mean)";
             break;
         case Difference::flip: {
             const bool display = mode.error_kind != ErrorKind::relative;
@@ -117,7 +117,7 @@ DifferencePanel measured(const DebugMode& mode, const Image& baseline, const Ima
                                            .coverage = &covered});
             if (const HdrFlipResult* const flip = measurement.flip()) {
                 panel.values = flip->error;
-                panel.words = fmt::format("FLIP, mean {:.4g}", flip->mean);
+                panel.text = fmt::format("FLIP, mean {:.4g}", flip->mean);
             } else {
                 panel.missing = fmt::format(
                     "FLIP needs a colour channel, and {} is not one: choose another difference", mode.name);
@@ -178,7 +178,7 @@ void makeImages(const Frame& left, const Frame& right, const Look& look, const E
     ImageScale scale;
     if (!having.empty()) scale = scaleFor(mode, exposure, having);
     shown.panels = {panelOf(left, mode, scale), panelOf(right, mode, scale)};
-    shown.scale = scale.words;
+    shown.scale = scale.text;
     shown.heat_top = isHeat(mode) && !having.empty() ? scale.high : 0;
     if (look.difference != Difference::none) shown.difference = differenceOf(left, right, look);
 }

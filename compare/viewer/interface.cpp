@@ -150,9 +150,9 @@ void foot(InterfaceState& state, const Contents& contents, const std::vector<Pan
                             100 * places.front().placement.scale, doing);
     const float room = ImGui::CalcTextSize(doing.c_str()).x + 24 * scale;
     const bool is_error = !contents.status.error.empty(), is_message = ImGui::GetTime() < state.message_until;
-    const std::string words = is_error     ? contents.status.error
-                              : is_message ? state.message
-                                           : underWords(contents);
+    const std::string sentence = is_error     ? contents.status.error
+                                 : is_message ? state.message
+                                              : belowText(contents);
     const ImVec4 color = is_error     ? ImVec4{1, 0.45f, 0.4f, 1}
                          : is_message ? ImVec4{0.6f, 0.9f, 0.6f, 1}
                                       : ImGui::GetStyleColorVec4(ImGuiCol_Text);
@@ -160,9 +160,9 @@ void foot(InterfaceState& state, const Contents& contents, const std::vector<Pan
     ImGui::BeginChild("words", {std::max(1.0f, static_cast<float>(width) - room), ImGui::GetTextLineHeight()},
                       false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(words.c_str());
+    ImGui::TextUnformatted(sentence.c_str());
     ImGui::PopStyleColor();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", sentence.c_str());
     ImGui::EndChild();
     ImGui::SameLine(std::max(0.0f, static_cast<float>(width) - room + 12 * scale));
     ImGui::TextUnformatted(doing.c_str());
@@ -221,16 +221,16 @@ void wipeLine(const InterfaceState& state, const CanvasRect& canvas, const std::
 // A colour bar with values at its ends and middle, and a description.
 template <class Color>
 void legend(const CanvasRect& canvas, float scale, const Color& color,
-            const std::array<std::string, 3>& values, const std::string& words) {
+            const std::array<std::string, 3>& values, const std::string& sentence) {
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
     const float width = std::min(260 * scale, 0.6f * static_cast<float>(canvas.width)), tall = 12 * scale;
     const float left = static_cast<float>(canvas.x) + 12 * scale;
     const float top = static_cast<float>(canvas.y + canvas.height) - 56 * scale;
     list->AddRectFilled(
         {left - 6 * scale, top - 22 * scale},
-        {left + std::max(width, ImGui::CalcTextSize(words.c_str()).x) + 6 * scale, top + 34 * scale},
+        {left + std::max(width, ImGui::CalcTextSize(sentence.c_str()).x) + 6 * scale, top + 34 * scale},
         IM_COL32(0, 0, 0, 190));
-    list->AddText({left, top - 20 * scale}, white, words.c_str());
+    list->AddText({left, top - 20 * scale}, white, sentence.c_str());
     constexpr int steps = 64;
     for (int i = 0; i < steps; ++i) {
         const std::array<std::uint8_t, 3> c = color((i + 0.5) / steps);
@@ -255,17 +255,16 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
         if (top == 0)
             drawOutlined(static_cast<float>(canvas.x) + 12 * scale,
                          static_cast<float>(canvas.y + canvas.height) - 24 * scale, white,
-                         shown.difference->words + ": 0 everywhere");
+                         shown.difference->text + ": 0 everywhere");
         else if (shown.difference->is_signed)
             legend(
                 canvas, scale,
                 [](double t) { return signedColor(std::copysign((2 * t - 1) * (2 * t - 1), 2 * t - 1)); },
-                {fmt::format("-{:.3g}", top), "0", fmt::format("{:.3g}", top)}, shown.difference->words);
+                {fmt::format("-{:.3g}", top), "0", fmt::format("{:.3g}", top)}, shown.difference->text);
         else
             legend(
                 canvas, scale, [](double t) { return errorColor(t); },
-                {"0", fmt::format("{:.3g}", 0.25 * top), fmt::format("{:.3g}", top)},
-                shown.difference->words);
+                {"0", fmt::format("{:.3g}", 0.25 * top), fmt::format("{:.3g}", top)}, shown.difference->text);
     } else if (shown.heat_top > 0) {
         legend(
             canvas, scale, [](double t) { return heatColor(t); },

@@ -52,7 +52,7 @@ CanvasRect canvasOf(const InterfaceState& state, int width, int height, double s
     return {0, top, std::max(1, width - side), std::max(1, height - top - bottom)};
 }
 
-std::string valueWords(const Image& image, int x, int y) {
+std::string valueText(const Image& image, int x, int y) {
     std::string words;
     if (x < 0 || y < 0 || x >= image.width || y >= image.height) return words;
     for (int c = 0; c < image.components; ++c)
@@ -60,7 +60,7 @@ std::string valueWords(const Image& image, int x, int y) {
     return words;
 }
 
-std::string underWords(const Contents& contents) {
+std::string belowText(const Contents& contents) {
     if (!contents.under || !contents.shown) return "no pixel under the cursor";
     const Shown& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
@@ -69,12 +69,12 @@ std::string underWords(const Contents& contents) {
     for (const Panel& panel : shown.panels)
         if (!panel.values.empty())
             words += fmt::format("  {}: {}", panel.name,
-                                 valueWords(panel.values, x * panel.values.width / full.width,
-                                            y * panel.values.height / full.height));
+                                 valueText(panel.values, x * panel.values.width / full.width,
+                                           y * panel.values.height / full.height));
     if (shown.difference && !shown.difference->values.empty()) {
         const Image& values = shown.difference->values;
-        words += fmt::format("  difference: {}", valueWords(values, x * values.width / full.width,
-                                                            y * values.height / full.height));
+        words += fmt::format("  difference: {}", valueText(values, x * values.width / full.width,
+                                                           y * values.height / full.height));
     }
     return words;
 }
@@ -90,25 +90,25 @@ const std::string& sceneOf(const InterfaceState& state) {
 
 std::string renderCommand(const InterfaceState& state) {
     std::vector<std::string> words =
-        commandWords("render", sceneOf(state),
-                     state.subject.sides.of(state.subject.settings, state.subject.settings.path));
+        commandArguments("render", sceneOf(state),
+                         state.subject.sides.of(state.subject.settings, state.subject.settings.path));
     if (state.look.channel() != Channel::lit)
         words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.channel()).name));
     if (state.look.exposure)
         words = withOption(std::move(words), "--exposure", fmt::format("{}", *state.look.exposure));
     if (state.look.ev100)
         words = withOption(std::move(words), "--ev100", fmt::format("{}", *state.look.ev100));
-    if (!state.look.tonemap) words = withWords(std::move(words), {"--no-tonemap"});
+    if (!state.look.tonemap) words = withArguments(std::move(words), {"--no-tonemap"});
     return shellLine(words);
 }
 
 std::string compareCommand(const InterfaceState& state) {
-    std::vector<std::string> words = commandWords("compare", sceneOf(state), state.subject.settings);
+    std::vector<std::string> words = commandArguments("compare", sceneOf(state), state.subject.settings);
     if (state.look.against == Against::reference)
         words = withOption(std::move(words), "--baseline", "reference");
     if (state.look.against == Against::file)
         words = withOption(std::move(words), "--baseline", state.look.file.string());
-    return shellLine(withWords(std::move(words), state.counted));
+    return shellLine(withArguments(std::move(words), state.counted));
 }
 
 void setOption(InterfaceState& state, const std::string& option, const std::string& word) {

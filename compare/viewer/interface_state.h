@@ -102,9 +102,9 @@ void setOption(InterfaceState& state, const std::string& option, const std::stri
 
 // The values of the pixel under the cursor in both panels and their difference: "12,7  deferred: 0.1 0.2
 // 0.3 ...".
-std::string underWords(const Contents& contents);
+std::string belowText(const Contents& contents);
 
 // "0.123 0.456 0.789": the shortest digits that identify each float.
-std::string valueWords(const Image& image, int x, int y);
+std::string valueText(const Image& image, int x, int y);
 
 }  // namespace diptych::viewer

@@ -39,7 +39,7 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
     ImGui::BeginChild("breakdown", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
     ImGui::PushFont(evenFont());
     if (!here) ImGui::PushStyleColor(ImGuiCol_Text, faint);
-    ImGui::TextUnformatted(contents.breakdown->words.c_str());
+    ImGui::TextUnformatted(contents.breakdown->text.c_str());
     if (!here) ImGui::PopStyleColor();
     ImGui::PopFont();
     ImGui::EndChild();

@@ -32,7 +32,7 @@ struct DifferencePanel {
     Image values;    // W x H x 1
     double top = 0;  // the value at the end of the colours; the other end is 0 or, if signed, -top
     bool is_signed = false;
-    std::string words;    // description of the values, with their unit
+    std::string text;     // description of the values, with their unit
     std::string missing;  // why there is no image
 };
 
@@ -62,10 +62,10 @@ struct Shown {
     std::vector<Light> lights;             // of the view, world
     std::vector<Requirements::Line> plan;  // modelled and omitted features
     Image depth;  // W x H x 1, m along the view direction, 0: background; empty while moving
-    std::array<PathFacts, 2> paths;    // deferred, forward+
-    double reference_done = 1;         // finished fraction of the left panel
-    std::string words_of_uncertainty;  // of a sampled reference
-    double made_in_ms = 0;             // from request to publication
+    std::array<PathFacts, 2> paths;  // deferred, forward+
+    double reference_done = 1;       // finished fraction of the left panel
+    std::string uncertainty_text;    // of a sampled reference
+    double made_in_ms = 0;           // from request to publication
 };
 
 // The verdict on both paths, or on both compared with the left panel's image.
@@ -78,7 +78,7 @@ struct Breakdown {
     Subject subject;
     PixelPlace pixel;
     PixelBreakdown breakdown;
-    std::string words;
+    std::string text;
 };
 
 // Properties of the loaded scene.

@@ -409,7 +409,7 @@ private:
 
     void moved() {
         moving_until_ = now_ + stillAfter;
-        own_camera_ = camera_.words();
+        own_camera_ = camera_.describe();
         change([&](Settings& s) { s.camera = own_camera_; });
     }
 

@@ -155,7 +155,7 @@ std::vector<SettingDifference> settingDifferences(const Settings& baseline, cons
     return all;
 }
 
-std::string inWords(std::span<const SettingDifference> differences) {
+std::string describe(std::span<const SettingDifference> differences) {
     const auto quoted = [](const std::string& value) { return value.empty() ? "none" : value; };
     std::string words;
     for (const SettingDifference& of : differences)
@@ -167,7 +167,7 @@ std::string inWords(std::span<const SettingDifference> differences) {
 std::string lightDifferences(const Settings& baseline, const Settings& test) {
     std::vector<SettingDifference> all = settingDifferences(baseline, test);
     std::erase_if(all, [](const SettingDifference& of) { return !changesLight(of); });
-    return inWords(all);
+    return describe(all);
 }
 
 }  // namespace diptych

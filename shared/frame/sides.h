@@ -52,6 +52,6 @@ std::vector<SettingDifference> settingDifferences(const Settings& baseline, cons
 // evsm"; empty if light is bit for bit the same.
 std::string lightDifferences(const Settings& baseline, const Settings& test);
 // "--assign clustered and per_object"
-std::string inWords(std::span<const SettingDifference> differences);
+std::string describe(std::span<const SettingDifference> differences);
 
 }  // namespace diptych

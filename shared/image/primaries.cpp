@@ -43,7 +43,7 @@ double mirrored(double (*curve)(double), double value) {
 }  // namespace
 
 std::optional<glm::dmat3> matrixToRec709(const Primaries& primaries, FileNotes& notes) {
-    const std::string words =
+    const std::string text =
         fmt::format("the primaries x, y {:.4f} (red, green, blue, white)", fmt::join(primaries, " "));
     const glm::dmat3 matrix = glm::inverse(xyzFromRgb(rec709)) *
                               adapted(xyzOf(primaries, 3), xyzOf(rec709, 3)) * xyzFromRgb(primaries);
@@ -51,7 +51,7 @@ std::optional<glm::dmat3> matrixToRec709(const Primaries& primaries, FileNotes& 
     constexpr double largest = 1e6;
     for (int i = 0; i < 9; ++i)
         if (!(std::abs(matrix[i / 3][i % 3]) < largest)) {
-            notes.not_applied.push_back(words + " do not span a colour space; Rec. 709 is assumed");
+            notes.not_applied.push_back(text + " do not span a colour space; Rec. 709 is assumed");
             return {};
         }
     // Four digits of 0.06, the smallest coordinate of Rec. 709, cause such an error; so does adaptation to
@@ -60,7 +60,7 @@ std::optional<glm::dmat3> matrixToRec709(const Primaries& primaries, FileNotes& 
     double most = 0;
     for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(matrix[i / 3][i % 3] - (i / 3 == i % 3)));
     if (most <= rounding) return {};
-    notes.lines.push_back("its colours were converted from " + words + " to Rec. 709's");
+    notes.lines.push_back("its colours were converted from " + text + " to Rec. 709's");
     return matrix;
 }
 

@@ -260,7 +260,7 @@ std::vector<DefaultView> insideViews(const Rating& rating) {
 
 }  // namespace
 
-std::string DefaultView::inWords() const {
+std::string DefaultView::describe() const {
     const char* from = place == Place::inside    ? "from inside"
                        : place == Place::outside ? "from another side, because it shows more"
                                                  : "from outside";

@@ -21,7 +21,7 @@ struct DefaultView {
     glm::dvec3 eye{0};              // if inside
     double covered = 0;             // fraction of a 16:9 image that shows a surface, 0 to 1
     double entropy = 0;             // bits, see viewEntropy()
-    std::string inWords() const;    // "from inside; the scene covers 97 % of the image"
+    std::string describe() const;   // "from inside; the scene covers 97 % of the image"
 };
 
 // Viewpoint entropy in bits (Vázquez, Feixas, Sbert and Heidrich 2001, "Viewpoint Selection using

@@ -113,23 +113,23 @@ Requirements requirements(const Scene& scene, const Pose& pose, const std::vecto
     return r;
 }
 
-std::string Requirements::areaLightsInWords() const {
+std::string Requirements::areaLightsText() const {
     std::vector<std::string> kinds;
     for (const LightKind kind : areaKinds)
         if (lights(kind) > 0) kinds.push_back(fmt::format("{} {}", lights(kind), nameOf(kind)));
     return fmt::format("{} ({})", counted(areaLights(), "area light"), fmt::join(kinds, ", "));
 }
 
-std::string Requirements::deformedInWords() const {
+std::string Requirements::deformedText() const {
     if (skinned + morphed == 0) return {};
-    std::string words;
-    if (skinned > 0) words = counted(skinned, "skinned mesh", "skinned meshes");
+    std::string text;
+    if (skinned > 0) text = counted(skinned, "skinned mesh", "skinned meshes");
     if (morphed > 0)
-        words += skinned > 0 ? fmt::format(", {} morphed", morphed)
-                             : counted(morphed, "morphed mesh", "morphed meshes");
-    words += ": " + counted(deformed_vertices, "vertex", "vertices");
-    if (skinned > 0) words += " by " + counted(joints, "joint");
-    return words;
+        text += skinned > 0 ? fmt::format(", {} morphed", morphed)
+                            : counted(morphed, "morphed mesh", "morphed meshes");
+    text += ": " + counted(deformed_vertices, "vertex", "vertices");
+    if (skinned > 0) text += " by " + counted(joints, "joint");
+    return text;
 }
 
 void Requirements::addMaterialLines(std::vector<Line>& lines) const {
@@ -202,13 +202,13 @@ void Requirements::addMotionAndLightLines(std::vector<Line>& lines) const {
         fmt::format("{} play{}: nodes, lights, cameras and materials follow --time", animations,
                     animations == 1 ? "s" : ""),
         "the scene has no animation");
-    say(skinned + morphed > 0, "skins and morph targets", deformedInWords(),
+    say(skinned + morphed > 0, "skins and morph targets", deformedText(),
         "no mesh is skinned or morphed: no deformation");
     say(directional > 0, "directional lights", fmt::format("{} in the scene", directional),
         "none in the scene");
     say(points + spots > 0, "point and spot lights",
         fmt::format("{} point and {} spot in the scene", points, spots), "none in the scene: no light lists");
-    say(areaLights() > 0, "area lights", areaLightsInWords() + " in the scene",
+    say(areaLights() > 0, "area lights", areaLightsText() + " in the scene",
         "none in the scene: no table of linearly transformed cosines");
     lines.push_back({false, "sun discs",
                      sun_discs > 0

@@ -53,9 +53,9 @@ struct Requirements {
     std::uint32_t areaLights() const {
         return std::reduce(light_counts.begin() + indexOf(areaKinds.front()), light_counts.end());
     }
-    std::string areaLightsInWords() const;  // "2 area lights (1 rect, 1 tube)"
+    std::string areaLightsText() const;  // "2 area lights (1 rect, 1 tube)"
     // "1 skinned mesh, 2 morphed: 96 vertices by 5 joints"; empty if nothing is deformed
-    std::string deformedInWords() const;
+    std::string deformedText() const;
 
     // Lines for users: which features are rendered or omitted, and why.
     struct Line {

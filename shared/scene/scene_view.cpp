@@ -51,7 +51,7 @@ SceneView viewOf(const Scene& scene, const ViewRequest& request, Pose pose,
     SceneView result;
     result.pose = std::move(pose);
     result.view = makeView(scene, result.pose, request.camera, request.width, request.height, defaultView);
-    if (request.camera.empty() && result.pose.cameras.empty()) result.default_view = defaultView().inWords();
+    if (request.camera.empty() && result.pose.cameras.empty()) result.default_view = defaultView().describe();
     if (request.scene_lights) result.lights = result.pose.lights;
     if (!request.lights.empty())
         for (Light& light : makeLights(request.lights, request.seed, boundsAtStart(scene, result.pose)))

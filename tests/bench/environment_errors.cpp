@@ -46,14 +46,14 @@ void print(const std::string& name, const Environment& environment, const Filter
 
 }  // namespace
 
-int main(int count, char** words) {
+int main(int count, char** text) {
     FilterQuality quality;
     std::vector<std::string> files;
     for (int i = 1, numbers = 0; i < count; ++i) {
         char* end = nullptr;
-        const double number = std::strtod(words[i], &end);
+        const double number = std::strtod(text[i], &end);
         if (*end != 0)
-            files.emplace_back(words[i]);
+            files.emplace_back(text[i]);
         else if (numbers++ == 0)
             quality.samples = static_cast<int>(number);
         else

@@ -83,10 +83,10 @@ TEST(AuditCommands, AreThoseThatShowTheFailure) {
     EXPECT_NE(surfaces.command.find("--reference-mode scene"), std::string::npos) << surfaces.command;
     const audit::Failure none = failureOf("nothing");
     EXPECT_EQ(none.command, "");
-    EXPECT_NE(none.words.find("compare tolerates this error and passes"), std::string::npos) << none.words;
+    EXPECT_NE(none.text.find("compare tolerates this error and passes"), std::string::npos) << none.text;
     EXPECT_EQ(none.scene, "brightness.gltf") << "the scene is there all the same";
     const audit::Failure untried = failureOf("");
-    EXPECT_TRUE(untried.words.ends_with("; it was not reproduced: no room")) << untried.words;
+    EXPECT_TRUE(untried.text.ends_with("; it was not reproduced: no room")) << untried.text;
 }
 
 }  // namespace

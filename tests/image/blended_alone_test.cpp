@@ -40,12 +40,11 @@ TEST(BlendedAlone, HasNoGBufferAndTheSameImage) {
         for (const char* change : {"", "msaa=4", "lighting=compute", "assign=tiled", "haze=on"}) {
             Settings settings = smallImage(GBufferEncoding::full);
             settings.size = {48, 27};
-            const std::string words = change;
-            if (!words.empty())
-                settings.set(words.substr(0, words.find('=')), words.substr(words.find('=') + 1));
+            const std::string text = change;
+            if (!text.empty()) settings.set(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
             settings.path = Path::deferred;
             const std::vector<std::string> passes = deferredPasses(scene, settings);
-            EXPECT_EQ(std::ranges::count(passes, "G-buffer"), wall ? 1 : 0) << words;
+            EXPECT_EQ(std::ranges::count(passes, "G-buffer"), wall ? 1 : 0) << text;
             Settings forward = settings;
             forward.path = Path::forward_plus;
             RenderOptions options;
@@ -55,7 +54,7 @@ TEST(BlendedAlone, HasNoGBufferAndTheSameImage) {
             const std::vector<Frame> frames = drawAll(scene, {settings, forward}, options);
             for (const Channel mode : options.channels)
                 EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
-                    << words << " " << debugMode(mode).name << (wall ? ", with a wall" : "");
+                    << text << " " << debugMode(mode).name << (wall ? ", with a wall" : "");
             const Image& image = frames[0].channels.at(Channel::lit);
             EXPECT_GT(*image.pixel(image.pixels() / 2), 0) << "the pane is seen";
             EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u);

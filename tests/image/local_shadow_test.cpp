@@ -48,9 +48,9 @@ LocallySeen locallySeen(const Frame& frame, int material = 0) {
     return seen;
 }
 
-bool says(const Frame& frame, const std::string& words) {
-    return std::ranges::any_of(
-        frame.notes, [&](const std::string& note) { return note.find(words) != std::string::npos; });
+bool says(const Frame& frame, const std::string& text) {
+    return std::ranges::any_of(frame.notes,
+                               [&](const std::string& note) { return note.find(text) != std::string::npos; });
 }
 
 struct LocalScene {

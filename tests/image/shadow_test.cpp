@@ -239,9 +239,9 @@ TEST(ShadowCasters, AreOfTheBrightestSun) {
 // A camera that sees the ground from 1.5 to 4 m renders no cascades nearer or farther. Without casters no
 // cascade is rendered; surfaces facing away from the sun are dark all the same.
 TEST(ShadowMapsOfNothing, AreNotDrawn) {
-    const auto says = [](const Frame& frame, const std::string& words) {
+    const auto says = [](const Frame& frame, const std::string& text) {
         return std::ranges::any_of(frame.notes,
-                                   [&](const std::string& note) { return note.find(words) != note.npos; });
+                                   [&](const std::string& note) { return note.find(text) != note.npos; });
     };
     const auto passes = [](const Scene& scene, const Settings& settings) {
         Renderer renderer(device(), scene, pipelines());

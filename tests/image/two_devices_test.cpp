@@ -158,14 +158,14 @@ TEST(TwoDevices, AnExplanationSaysWhereADifferenceComesFrom) {
                                                here.precision, own));
     EXPECT_EQ(shares.front().name, "textures");
     double all = 0;
-    std::string words;
+    std::string sentence;
     for (const DeviceShare& share : shares) {
         all += share.share;
-        words += fmt::format("{}: {:.3g}; ", share.name, share.share);
+        sentence += fmt::format("{}: {:.3g}; ", share.name, share.share);
     }
     EXPECT_NEAR(all, explanation.distance, 1e-6 * explanation.distance);
     // Vertex snapping is first attributed the change that a sub-pixel step may cause.
-    EXPECT_GT(shares.front().share, 0.95 * explanation.distance) << words;
+    EXPECT_GT(shares.front().share, 0.95 * explanation.distance) << sentence;
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
                                                 .test = forward,
                                                 .reference = referenceSettings(order.subject.settings),
                                                 .device = reportDevice(device)});
-    EXPECT_EQ(breakdown->words, inText(blocksOf(same)));
+    EXPECT_EQ(breakdown->text, inText(blocksOf(same)));
 }
 
 TEST(DrawingThread, WhatMovesIsDrawnAndThenWhatStandsStill) {

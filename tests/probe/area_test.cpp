@@ -37,7 +37,7 @@ Light lightAround(std::mt19937& random, LightKind kind, double least, double mos
     return light;
 }
 
-std::string words(const Light& l, const Receiver& r) {
+std::string text(const Light& l, const Receiver& r) {
     const auto v = [](const glm::dvec3& a) { return fmt::format("[{}, {}, {}]", a.x, a.y, a.z); };
     return fmt::format(
         "kind {} at {} towards {} axis {} width {} height {} radius {} length {}{}; roughness {}, view {}",
@@ -75,7 +75,7 @@ TEST_P(AreaShapes, AreIntegratedExactly) {
         const LtcCell cell = ltcTable().at(r.roughness, r.nDotV());
         const double plain = shareOfSky(light, {}, r.to_viewer);
         expected.push_back({plain, specularOf(light, cell, r)});
-        names.push_back(words(light, r));
+        names.push_back(text(light, r));
         Receiver lambert = r;
         lambert.metallic = 0, lambert.albedo = 1, lambert.f0 = 0, lambert.f90 = 0;
         pushArea(input, light, lambert);

@@ -217,9 +217,10 @@ TEST(Command, PlanSaysWhatIsModelledAndWhatEachPathCosts) {
     ASSERT_EQ(scene["paths"].size(), 2u);
     // depth, compared with depth and a G-buffer
     EXPECT_GT(scene["paths"][0]["bytes_per_pixel"], scene["paths"][1]["bytes_per_pixel"]);
-    const std::string words = runTool(folder, "plan builtin:triangle").out;
-    EXPECT_NE(words.find("4 bytes per pixel, 20 with lighting; 16 and 96 with --msaa 4"), std::string::npos)
-        << words;
+    const std::string sentence = runTool(folder, "plan builtin:triangle").out;
+    EXPECT_NE(sentence.find("4 bytes per pixel, 20 with lighting; 16 and 96 with --msaa 4"),
+              std::string::npos)
+        << sentence;
     // Buffers with one element per pixel are divided by the pixel count, without the padding of rows.
     ASSERT_EQ(scene["paths"][0]["samples"][1]["samples"], 4);
     EXPECT_EQ(scene["paths"][0]["samples"][1]["image_bytes_per_pixel"], 252);

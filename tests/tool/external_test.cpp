@@ -58,15 +58,15 @@ TEST(External, JobsAreAsTheSchemaSays) {
     writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
     folder.write("t.json",
                  R"({"rules": [{"channel": "lit", "flip": 1, "because": "nothing is to be explained"}]})");
-    for (const std::string words :
+    for (const std::string sentence :
          {"builtin:gallery --env sky.exr --env-rotation 30 --time 0.5", "builtin:areas", "builtin:suns",
           "builtin:ortho", "builtin:motion --camera 'eye=0,2,9 target=0,1,0 fov=40'",
           "builtin:spots --msaa 4"}) {
         runTool(folder,
-                "compare " + words +
+                "compare " + sentence +
                     " --size 32x18 --runs 0 --channels lit -q --tolerances t.json --renderer f=fake.json");
         const Ran ran = validate(folder, external_room / "job.schema.json", folder / "kept/job.json");
-        EXPECT_EQ(ran.code, 0) << words << ran.err;
+        EXPECT_EQ(ran.code, 0) << sentence << ran.err;
     }
     // Negative control: a missing member is detected.
     Json job = Json::parse(contentsOf(folder / "kept/job.json"));

@@ -35,7 +35,7 @@ public:
                         "export SLURM_CONF='" + (folder_ / "cluster/slurm.conf").string() + "'; " + command,
                         folder_ / "work");
     }
-    Ran tool(const std::string& words) const { return shell("'" DIPTYCH_PROGRAM "' " + words); }
+    Ran tool(const std::string& text) const { return shell("'" DIPTYCH_PROGRAM "' " + text); }
     // Waits until no job is left. Tasks that Slurm requeued start at once instead of after two minutes.
     bool idle() const {
         return soon([&] {
@@ -65,11 +65,11 @@ TEST(Slurm, ADryRunPrintsBothScripts) {
     const Ran ran = runTool(
         folder, "submit slurm --shards 4 --at-once 2 --dry-run -- " + slurmCompare + " -o 'a report'");
     EXPECT_EQ(ran.code, 0) << ran.err;
-    for (const char* words :
+    for (const char* text :
          {"#SBATCH --array=1-4%2\n", "#SBATCH --requeue\n", "/a report.slurm/shard-%a.log\"\n",
           " compare --shard slurm/4 -o '", "/a report.slurm/shard-'\"$SLURM_ARRAY_TASK_ID\" ", " merge '",
           "/a report.slurm/shard-4' -o '", "/a report.slurm/merge.log\"\n"})
-        EXPECT_NE(ran.out.find(words), std::string::npos) << words << "\n" << ran.out;
+        EXPECT_NE(ran.out.find(text), std::string::npos) << text << "\n" << ran.out;
     EXPECT_FALSE(fs::exists(folder / "a report.slurm")) << "nothing is written";
     // Five scenes: five shards by default.
     EXPECT_NE(runTool(folder, "submit slurm --dry-run -- " + slurmCompare).out.find("--array=1-5\n"),

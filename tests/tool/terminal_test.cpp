@@ -94,25 +94,25 @@ TEST(Terminal, ALineBreakInANameIsRefused) {
 
 TEST(Terminal, ArgumentsInErrorsPassAFilterAndAreCut) {
     const Folder folder;
-    for (const std::string& words : std::vector<std::string>{
+    for (const std::string& sentence : std::vector<std::string>{
              "compare '" + evil + ".gltf'", "compare --" + std::string("size '") + evil + "'",
              "'" + evil + "'", "compare '--" + evil + "'", "compare --device '" + evil + "'",
              "diff '" + evil + ".exr' b.exr", "merge '" + evil + "'", "compare --settings '" + evil + "'",
              "compare '@" + evil + "'", "diff '\xff\xfe.exr' b.exr"}) {
-        const Ran ran = runTool(folder, words);
-        EXPECT_EQ(ran.code, 2) << words;
-        EXPECT_TRUE(isPlain(ran)) << words;
+        const Ran ran = runTool(folder, sentence);
+        EXPECT_EQ(ran.code, 2) << sentence;
+        EXPECT_TRUE(isPlain(ran)) << sentence;
     }
     const Ran json = runTool(folder, "compare --json '" + evil + ".gltf'");
     EXPECT_TRUE(isPlain(json));
     EXPECT_TRUE(Json::accept(json.out));
     folder.write("long.json", "{\"" + std::string(5'000'000, 'x') + "\": 1}");
-    for (const std::string& words :
+    for (const std::string& sentence :
          std::vector<std::string>{"diff a b --tolerances long.json", "compare --settings long.json",
                                   "compare '" + std::string(100'000, 'x') + "'"}) {
-        const Ran ran = runTool(folder, words);
+        const Ran ran = runTool(folder, sentence);
         EXPECT_EQ(ran.code, 2);
-        EXPECT_LT(ran.err.size(), 2000u) << words.substr(0, 40);
+        EXPECT_LT(ran.err.size(), 2000u) << sentence.substr(0, 40);
     }
 }
 

@@ -133,7 +133,7 @@ TEST_F(View, APixelsValuesAreThoseOfTheExr) {
                         static_cast<int>(place.placement.top + (y + 0.5) * place.placement.scale)));
         await("view: pixel ", before);
         const auto words = [&, x = x, y = y](const Frame& frame) {
-            return viewer::valueWords(frame.channels.at(Channel::lit), x, y);
+            return viewer::valueText(frame.channels.at(Channel::lit), x, y);
         };
         EXPECT_EQ(lastLine("pixel "), fmt::format("pixel {},{}  deferred: {}  forward_plus: {}", x, y,
                                                   words(deferred), words(forward)));

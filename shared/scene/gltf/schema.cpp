@@ -31,9 +31,9 @@ struct Where {
 
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-    std::string words() const {
+    std::string describe() const {
         if (what.empty()) return {};
-        std::string text = outer ? outer->words() : std::string();
+        std::string text = outer ? outer->describe() : std::string();
         if (!text.empty()) text += item == none ? ": " : ", ";
         text += what;
         if (item != none) text += fmt::format(" {}", item);
@@ -42,8 +42,8 @@ struct Where {
 };
 
 std::string lineAt(const Where& where, const std::string& what) {
-    const std::string words = where.words();
-    return words.empty() ? what : words + ": " + what;
+    const std::string sentence = where.describe();
+    return sentence.empty() ? what : sentence + ": " + what;
 }
 [[noreturn]] void failAt(const Where& where, const std::string& why) {
     throw std::runtime_error(lineAt(where, why));
@@ -107,7 +107,7 @@ private:
     void met(const std::string& extension, bool read, const Where& where) {
         const std::string name = oneLine(extension);
         met_extensions.insert(name);
-        if (!read && !misplaced.contains(name)) misplaced[name] = where.words();
+        if (!read && !misplaced.contains(name)) misplaced[name] = where.describe();
     }
 
     // Exporters write null for absent values, and numbers for names; neither affects rendering.
@@ -179,7 +179,7 @@ private:
             references.enter(collection, i);
             const std::string fault = faultOf([&] {
                 object(value[i], p.properties, here);
-                checkRules(collection, value[i], here.words(), notes);
+                checkRules(collection, value[i], here.describe(), notes);
             });
             if (!fault.empty()) references.broken(collection, i, fault);
             references.leave();

@@ -279,7 +279,7 @@ Light turnedSun(const Light& light, double degrees, double factor) {
     return result;
 }
 
-std::string inWords(const Light& sun, double share) {
+std::string describe(const Light& sun, double share) {
     const glm::dvec3 irradiance = glm::dvec3(sun.color) * double{sun.intensity};
     const glm::dvec3 to_light = glm::round(-1000.0 * sun.direction) / 1000.0 + 0.0;  // avoids -0
     return fmt::format(

@@ -53,6 +53,6 @@ Light turnedSun(const Light& light, double degrees, double factor);
 
 // "of 0.53 degrees, towards (0.3, 0.8, 0.5), 12.4 (10.1, 9.2, 8.1) lux, 63 % of the environment's light",
 // for a light of turnedSun().
-std::string inWords(const Light& sun, double share);
+std::string describe(const Light& sun, double share);
 
 }  // namespace diptych

@@ -80,15 +80,15 @@ TEST(Audit, ASeriesHoldsAsFarAsItDidWithoutABreak) {
     const ValidRange& coarse = ranges[1][0];
     EXPECT_EQ(coarse.up.last, 100);
     EXPECT_EQ(coarse.down.last, 0.1);
-    EXPECT_EQ(rangeInWords(coarse), "0.1 to 100");
+    EXPECT_EQ(rangeText(coarse), "0.1 to 100");
     const ValidRange& visible = ranges[visibleCriterion][0];
     EXPECT_FALSE(visible.down.broken);
-    EXPECT_EQ(rangeInWords(visible), "up to 100");
+    EXPECT_EQ(rangeText(visible), "up to 100");
     EXPECT_TRUE(ranges[numberCriterion][0].up.broken);
     const auto bad = validRangesOf({stepOf(1, 1)}, 1, 1);
     EXPECT_FALSE(bad[0][0].at_original);
-    EXPECT_EQ(rangeInWords(bad[0][0]), "nowhere");
-    EXPECT_EQ(rangeInWords(validRangesOf({stepOf(1, 0)}, 1, 1)[0][0]), "whole range");
+    EXPECT_EQ(rangeText(bad[0][0]), "nowhere");
+    EXPECT_EQ(rangeText(validRangesOf({stepOf(1, 0)}, 1, 1)[0][0]), "whole range");
 }
 
 TEST(Audit, ALimitIsFoundBetweenTheSteps) {
@@ -204,7 +204,7 @@ TEST(Audit, ABoundIsRefutedByWhatHoldsBeyondIt) {
     range = {true, {100, 1000, true}, {1, 0, false}};
     audit.predicted[0] = {{.up = 1e4, .because = "it ends there", .at_most = true}};
     EXPECT_EQ(agrees(audit, 0, 0), std::nullopt) << "something else broke it";
-    EXPECT_EQ(rangeInWords(audit.predicted[0][0], audit), "at most up to 1e+04");
+    EXPECT_EQ(rangeText(audit.predicted[0][0], audit), "at most up to 1e+04");
     audit.predicted[0][0].at_most = false;
     EXPECT_EQ(agrees(audit, 0, 0), false);
     audit.predicted[0][0].at_most = true;
@@ -431,9 +431,9 @@ TEST(AuditOutput, ATableAPlotAndWords) {
     EXPECT_NE(csv.find("haze,0.001,,deferred,gbuffer=full,1e-06,"), std::string::npos) << csv;
     const std::string plot = auditPlot(of, PlotPlace::file);
     EXPECT_NE(plot.find(">\u221e<"), std::string::npos) << "infinite errors have a lane";
-    for (const Series& series : of.series) EXPECT_NE(plot.find(series.words()), std::string::npos);
-    for (const std::string& words : {output::inText(blocksOf(of)), output::inHtml(blocksOf(of))})
-        EXPECT_NE(words.find("differs from the measurement"), std::string::npos) << words;
+    for (const Series& series : of.series) EXPECT_NE(plot.find(series.describe()), std::string::npos);
+    for (const std::string& text : {output::inText(blocksOf(of)), output::inHtml(blocksOf(of))})
+        EXPECT_NE(text.find("differs from the measurement"), std::string::npos) << text;
     const nlohmann::ordered_json json = toJson(audit);
     EXPECT_EQ(json["rows"].size(), of.steps.size() * of.series.size());
     EXPECT_EQ(json["quantities"][0]["series"][1]["path"], "forward_plus");

@@ -463,19 +463,18 @@ TEST(Relations, TheReferenceTellsWhoseFaultItIs) {
                      series(Path::reference, true)};
     EXPECT_FALSE(result.passes());
     const ReportDevice gpu{"Some GPU", "driver 1.2", "discrete"};
-    for (const std::string& words :
+    for (const std::string& sentence :
          {output::inText(blocksOf(result, gpu)), output::inHtml(blocksOf(result, gpu))})
         for (const char* told : {"broken", "a bug of the driver or of Diptych, on Some GPU with driver 1.2",
                                  "forward_plus: broken", "forward_plus, lit: 1 pixel out of tolerance"})
-            EXPECT_NE(words.find(told), words.npos) << words;
-    EXPECT_NE(blameInWords(result, {"llvmpipe", "Mesa", "cpu"}).find("most likely a bug of Diptych"),
+            EXPECT_NE(sentence.find(told), sentence.npos) << sentence;
+    EXPECT_NE(blameText(result, {"llvmpipe", "Mesa", "cpu"}).find("most likely a bug of Diptych"),
               std::string::npos);
     result.series[2] = series(Path::reference, false);
-    EXPECT_NE(blameInWords(result, gpu).find("the double-precision reference breaks it too"),
-              std::string::npos);
+    EXPECT_NE(blameText(result, gpu).find("the double-precision reference breaks it too"), std::string::npos);
     result.series[1] = series(Path::forward_plus, true);
     EXPECT_TRUE(result.passes()) << "the reference only tells whose fault it is";
-    EXPECT_EQ(blameInWords(result, gpu), "");
+    EXPECT_EQ(blameText(result, gpu), "");
     result.series[1].comparison.failed = "no memory";
     EXPECT_FALSE(result.passes());
 }

@@ -52,7 +52,7 @@ TEST(BenchConclusion, SaysWhichIsFasterByHowMuchAndWhy) {
     EXPECT_EQ(all[0].faster, &bench.rows[0]) << "per_object draws another picture";
     EXPECT_EQ(all[0].slower, &bench.rows[2]) << "the other path, although tiled is closer";
     EXPECT_EQ(all[0].pass, "shade");
-    EXPECT_EQ(all[0].inWords(),
+    EXPECT_EQ(all[0].describe(),
               "64x48, 16 lights: deferred (clustered) takes 10 ms, forward_plus (clustered) takes 2.05 times "
               "as long (median ratio of 6 interleaved frame pairs; 2.00 to 2.17 at 96.9 % confidence); the "
               "pass that differs most is shade: none against 19 ms");
@@ -65,8 +65,8 @@ TEST(BenchConclusion, IsNotSureWhereFramesScatter) {
     const std::vector<Conclusion> all = conclusionsOf(bench);
     ASSERT_EQ(all.size(), 1u);
     EXPECT_FALSE(all[0].ratio.isSure());
-    EXPECT_NE(all[0].inWords().find("no significant difference"), std::string::npos) << all[0].inWords();
-    EXPECT_EQ(all[0].inWords().find("differs most"), std::string::npos);
+    EXPECT_NE(all[0].describe().find("no significant difference"), std::string::npos) << all[0].describe();
+    EXPECT_EQ(all[0].describe().find("differs most"), std::string::npos);
 }
 
 TEST(BenchConclusion, IsOfEachSizeAndLightCount) {
@@ -83,12 +83,12 @@ TEST(BenchConclusion, IsOfEachSizeAndLightCount) {
 
 TEST(BenchConclusion, StandsInTableJsonAndPage) {
     const Bench bench = oneCount();
-    const std::string words = conclusionsOf(bench)[0].inWords();
+    const std::string text = conclusionsOf(bench)[0].describe();
     const std::string end = benchEnd(bench);
-    EXPECT_TRUE(end.ends_with(words + "\n")) << "the last line: " << end;
-    EXPECT_NE(benchHtml(bench).find(words), std::string::npos);
+    EXPECT_TRUE(end.ends_with(text + "\n")) << "the last line: " << end;
+    EXPECT_NE(benchHtml(bench).find(text), std::string::npos);
     const nlohmann::json json = benchJson(bench);
-    EXPECT_EQ(json["conclusions"][0]["in_words"], words);
+    EXPECT_EQ(json["conclusions"][0]["in_words"], text);
     EXPECT_EQ(json["conclusions"][0]["faster"], "deferred, clustered");
     EXPECT_EQ(json["conclusions"][0]["sure"], true);
     EXPECT_EQ(json["conclusions"][0]["pass_ms"], (nlohmann::json{0, 19}));

@@ -93,7 +93,8 @@ TEST(BenchEstimate, AFrameIsTheSumOfTheLongestDemands) {
     EXPECT_NEAR(estimated.ms, 19 + 0.5 + 0.5, 1e-12);
     EXPECT_EQ(estimated.passes[0].bound, "memory");
     EXPECT_EQ(estimated.passes[1].bound, "launch");
-    EXPECT_EQ(inWords(estimated), "deferred on plain: 20 ms; G-buffer 19.500 (memory), empty 0.500 (launch)");
+    EXPECT_EQ(describe(estimated),
+              "deferred on plain: 20 ms; G-buffer 19.500 (memory), empty 0.500 (launch)");
     assumed.reached = 0.5;
     EXPECT_NEAR(estimate(frame, plainGpu, assumed).ms, 38 + 1, 1e-12)
         << "half of a figure takes twice as long";

@@ -51,13 +51,13 @@ TEST(BenchGrowth, SaysWhereAndWhy) {
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_EQ(lines[0].rows[0]->growth->value, 10);
     EXPECT_EQ(memoryMib(*lines[0].rows[0]), 4);
-    const std::vector<std::string> words = growthInWords(bench);
+    const std::vector<std::string> words = growthText(bench);
     ASSERT_EQ(words.size(), 2u);
     EXPECT_EQ(words[0],
               "deferred, time over draws: 5 ms at 10, 50 ms at 1000; flat up to 100, then grows with "
               "exponent 0.92; 100 % of the added time is in G-buffer");
     EXPECT_EQ(words[1], "deferred, memory over draws: 4 MiB at 10, 4 MiB at 1000; flat");
-    EXPECT_TRUE(growthInWords(grownBench({{10, 5}})).empty()) << "one point grows nowhere";
+    EXPECT_TRUE(growthText(grownBench({{10, 5}})).empty()) << "one point grows nowhere";
 }
 
 }  // namespace

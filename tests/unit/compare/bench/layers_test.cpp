@@ -172,7 +172,7 @@ TEST(BenchLayers, ARowHasThreeWaysAndItsFastest) {
 
 TEST(BenchLayers, SaysWhereEachWayWins) {
     EXPECT_EQ(
-        layersInWords(layerBench()),
+        layersText(layerBench()),
         (std::vector<std::string>{
             "forward_plus is the fastest in 2 of 5 rows (the next takes up to 1.30 times as long: 25 % "
             "coated, 1 light): 5, 25 % coated under 1 light",
@@ -190,9 +190,9 @@ TEST(BenchLayers, SaysWhereEachWayWins) {
     for (const Cover& cover :
          {Cover(), Cover{"woven", 5}, Cover{"woven", 100}, Cover{"glass", 5}, Cover{"glass", 100}})
         for (const std::uint32_t lights : {1u, 64u}) addWays(wide, cover, lights, {always(1), always(2), {}});
-    EXPECT_TRUE(layersInWords(wide)[0].ends_with(
+    EXPECT_TRUE(layersText(wide)[0].ends_with(
         ": no layers under 1, 64 lights; 5, 100 % woven, glass under 1, 64 lights"))
-        << layersInWords(wide)[0];
+        << layersText(wide)[0];
 }
 
 TEST(BenchLayers, TextPageJsonAndPlotHaveTheTable) {
@@ -208,8 +208,7 @@ TEST(BenchLayers, TextPageJsonAndPlotHaveTheTable) {
         EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
         EXPECT_NE(page.find(words), std::string::npos) << words;
     }
-    for (const std::string& words : layersInWords(bench))
-        EXPECT_NE(text.find(words + "\n"), std::string::npos);
+    for (const std::string& words : layersText(bench)) EXPECT_NE(text.find(words + "\n"), std::string::npos);
     const auto json = nlohmann::json(benchJson(bench))["layers"];
     EXPECT_EQ(json["compiler"], "a GPU");
     ASSERT_EQ(json["rows"].size(), 5u);

@@ -138,7 +138,7 @@ TEST(BenchSamples, LinesArePathsAndColumnsSamples) {
 
 // The paper's deferred renderer has 32 bytes per sample, too: 63, 253 and 506 MiB at 1920x1080.
 TEST(BenchSamples, MemoryIsThatOfThePapersSize) {
-    const std::vector<std::string> words = memoryInWords(sampleTables(sampledBench())[0]);
+    const std::vector<std::string> words = memoryText(sampleTables(sampledBench())[0]);
     ASSERT_EQ(words.size(), 2u);
     EXPECT_EQ(words[0],
               "deferred stores 32, 32 B of G-buffer and depth per sample with 1, 4 samples per pixel: 63, "
@@ -149,7 +149,7 @@ TEST(BenchSamples, MemoryIsThatOfThePapersSize) {
     Bench eight;
     eight.options.table = BenchTable::msaa;
     eight.rows = {sampledRow(Path::deferred, Transparency::off, 8, 9, 8 * 32)};
-    EXPECT_NE(memoryInWords(sampleTables(eight)[0])[0].find("506 MiB at 1920x1080"), std::string::npos);
+    EXPECT_NE(memoryText(sampleTables(eight)[0])[0].find("506 MiB at 1920x1080"), std::string::npos);
 }
 
 TEST(BenchSamples, TextPageAndJsonHaveTheTable) {
@@ -159,7 +159,7 @@ TEST(BenchSamples, TextPageAndJsonHaveTheTable) {
         EXPECT_NE(text.find(words), std::string::npos) << text;
         EXPECT_NE(page.find(words), std::string::npos) << words;
     }
-    EXPECT_NE(text.find(memoryInWords(sampleTables(bench)[0])[1] + "\n"), std::string::npos) << text;
+    EXPECT_NE(text.find(memoryText(sampleTables(bench)[0])[1] + "\n"), std::string::npos) << text;
     const nlohmann::json json = benchJson(bench);
     const auto& table = json["msaa_tables"][0];
     EXPECT_EQ(table["columns"], (nlohmann::json{1, 4}));
@@ -184,8 +184,8 @@ TEST(BenchSamples, ConclusionsCompareOneNumberOfSamples) {
         EXPECT_EQ(c.faster->settings.transparency, c.slower->settings.transparency);
         EXPECT_EQ(c.faster->settings.path, Path::forward_plus);
     }
-    EXPECT_NE(all[2].inWords().find("forward_plus (clustered, off, 4 samples)"), std::string::npos)
-        << all[2].inWords();
+    EXPECT_NE(all[2].describe().find("forward_plus (clustered, off, 4 samples)"), std::string::npos)
+        << all[2].describe();
 }
 
 }  // namespace

@@ -229,7 +229,7 @@ TEST(ExperimentSensitivity, NothingIsDrawnTwiceNorLostInSilence) {
             return skip.tried.size() == 2 && skip.tried[0].value == nameOf(row.path) &&
                    row.valueOf(skip.tried[1].option) == skip.tried[1].value;
         });
-        EXPECT_TRUE(said) << inWords(changesOf(row, Settings()));
+        EXPECT_TRUE(said) << describe(changesOf(row, Settings()));
     }
 }
 

@@ -19,7 +19,7 @@ SweepRows defaultSweep(const Settings& given = {}) {
 
 std::vector<std::string> wordsOfRows(const SweepRows& sweep, const Settings& given = {}) {
     std::vector<std::string> words;
-    for (const Settings& row : sweep.rows) words.push_back(inWords(changesOf(row, given)));
+    for (const Settings& row : sweep.rows) words.push_back(describe(changesOf(row, given)));
     return words;
 }
 

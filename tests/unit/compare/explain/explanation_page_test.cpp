@@ -128,12 +128,13 @@ TEST(ExplanationPage, TerminalAndPageSayTheSame) {
     e.nonfinite = 3;
     e.devices = {{"textures", "decoding", 0.5}};
     const std::string text = inText(blocksOf(e, of)), page = inHtml(blocksOf(e, of));
-    for (const char* words : {"lit differs because of --haze 50.0 %, cause 1 50.0 %; unexplained 25.0 %; "
-                              "across devices by textures",
-                              "lit of forward_plus differs from that of deferred by 1 W/(sr m^2) on average",
-                              "excluded: 3 pixels with NaN or infinity", "decoding", "100 % background"}) {
-        EXPECT_NE(text.find(words), std::string::npos) << text;
-        EXPECT_NE(page.find(words), std::string::npos) << page;
+    for (const char* sentence :
+         {"lit differs because of --haze 50.0 %, cause 1 50.0 %; unexplained 25.0 %; "
+          "across devices by textures",
+          "lit of forward_plus differs from that of deferred by 1 W/(sr m^2) on average",
+          "excluded: 3 pixels with NaN or infinity", "decoding", "100 % background"}) {
+        EXPECT_NE(text.find(sentence), std::string::npos) << text;
+        EXPECT_NE(page.find(sentence), std::string::npos) << page;
     }
     EXPECT_NE(inText(blocksOf(Explanation(), of)).find("no cause: lit is the same"), std::string::npos);
 }

@@ -56,15 +56,15 @@ TEST(PixelBreakdown, NamesTheFirstStepThatDiffers) {
         firstDifference(breakdown),
         "the first step that differs by more than rounding: roughness (0.30012 against 0.3, 0.00012 in its "
         "metric, absolute, tolerance 0.002: half a step)");
-    std::string words = inText(blocksOf(breakdown));
-    EXPECT_NE(words.find("2 channels differ: roughness, lit\n"), std::string::npos) << words;
-    EXPECT_NE(words.find("FAIL: at this pixel beyond tolerance: lit\n"), std::string::npos) << words;
+    std::string text = inText(blocksOf(breakdown));
+    EXPECT_NE(text.find("2 channels differ: roughness, lit\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("FAIL: at this pixel beyond tolerance: lit\n"), std::string::npos) << text;
     // Rounding does not count as a difference.
     breakdown.steps[1].differs = breakdown.steps[2].differs = false;
     breakdown.steps[2].beyond = false;
     EXPECT_EQ(firstDifference(breakdown), "no step differs by more than rounding");
-    words = inText(blocksOf(breakdown));
-    EXPECT_NE(words.find("pass: at this pixel all 3 shared channels"), std::string::npos) << words;
+    text = inText(blocksOf(breakdown));
+    EXPECT_NE(text.find("pass: at this pixel all 3 shared channels"), std::string::npos) << text;
     EXPECT_EQ(toJson(breakdown)["first_difference"], nullptr);
 }
 

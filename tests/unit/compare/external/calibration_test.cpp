@@ -241,7 +241,7 @@ struct Tally {
             return;
         }
         wrong += planted + " ->";
-        for (const Deviation& one : found) wrong += " " + one.name + " (" + one.words + ")";
+        for (const Deviation& one : found) wrong += " " + one.name + " (" + one.text + ")";
         wrong += "\n";
     }
 };

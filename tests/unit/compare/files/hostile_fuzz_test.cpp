@@ -196,10 +196,10 @@ TEST(HostileFuzz, KeysAndPlansAndLists) {
         std::ofstream(root / "out/.diptych.put/.plan.json") << moves;
         expectALine([&] { finishMoves(root / "out"); }, moves);
 
-        std::string words = list;
-        words.replace(seed % words.size(), 1 + seed % 5, mutator.mutated("[\"@list\", \"x\\n\"]"));
-        std::ofstream(root / "list") << words;
-        expectALine([&] { scenesOf({"@" + (root / "list").string()}); }, words);
+        std::string sentence = list;
+        sentence.replace(seed % sentence.size(), 1 + seed % 5, mutator.mutated("[\"@list\", \"x\\n\"]"));
+        std::ofstream(root / "list") << sentence;
+        expectALine([&] { scenesOf({"@" + (root / "list").string()}); }, sentence);
     }
     EXPECT_EQ(contentsOf(root / "secret.png"), "secret");
 }

@@ -151,10 +151,10 @@ TEST(Layers, NamesOfOthersAreGivenOurs) {
                    {"albedo=diffuse.B,diffuse.G,diffuse.R", "occlusion=ao", "normals=N.x,N.y,N.z"});
     EXPECT_EQ(namesOf(channels), (std::vector<std::string>{"albedo", "occlusion"}));
     EXPECT_EQ(channels[0].image.pixel(0)[0], 20) << "in the order that was asked for";
-    for (const char* words : {"albedo", "=a", "albedo=", "albedo=a,,b"})
+    for (const char* sentence : {"albedo", "=a", "albedo=", "albedo=a,,b"})
         EXPECT_EQ(faultOf([&] {
-                      channelsOf(file({layer("", {"R"})}), {words});
-                  }).find(std::string("--map ") + words + ": give NAME=CHANNEL,"),
+                      channelsOf(file({layer("", {"R"})}), {sentence});
+                  }).find(std::string("--map ") + sentence + ": give NAME=CHANNEL,"),
                   0u);
 }
 

@@ -49,7 +49,7 @@ TEST(ChannelImage, FilmsAreShownOverTheirRange) {
         ids.at(2, 2) = 1;  // a surface without a film
         const Frame* frames[] = {&frame};
         const ImageScale scale = scaleFor(mode, {}, frames);
-        EXPECT_EQ(scale.words, words);
+        EXPECT_EQ(scale.text, words);
         EXPECT_EQ(channelImage(mode, frame, scale).data.at(3 * (2 * 4 + 1)), 255);
     }
 }

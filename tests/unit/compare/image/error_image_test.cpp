@@ -225,7 +225,7 @@ std::pair<Image8, std::string> shown(Channel mode, const std::vector<Frame>& fra
     std::vector<const Frame*> all;
     for (const Frame& frame : frames) all.push_back(&frame);
     const ImageScale range = scaleFor(debugMode(mode), {}, all);
-    return {channelImage(debugMode(mode), frames[0], range), range.words};
+    return {channelImage(debugMode(mode), frames[0], range), range.text};
 }
 
 // Both images share a range; bytes are linear in it.

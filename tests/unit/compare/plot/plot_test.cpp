@@ -151,7 +151,7 @@ TEST(Plot, ForeignTextIsEscapedEverywhere) {
     const std::string hostile = "<b>\"a' & </svg>\x01";
     Plot plot{.title = hostile, .parts = {hostile}, .interval = "i" + hostile, .chooses = true};
     PlotPanel panel{.across = {.name = hostile, .places = {hostile}}, .up = {.name = hostile}};
-    panel.pointsOf("s" + hostile, {}).push_back({.words = hostile, .row = 1, .label = hostile});
+    panel.pointsOf("s" + hostile, {}).push_back({.text = hostile, .row = 1, .label = hostile});
     panel.bars = {{{0, 1}, {0, 1}, 0, hostile}};
     panel.limits = {{.x = 1, .name = "l" + hostile}};
     plot.panels = {panel};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The plan of compiled shaders, from made-up compiler statistics.
 #include "compare/render/compiled_plan.h"
-#include "compare/bench/compiled_words.h"
+#include "compare/bench/compiled_text.h"
 #include "compare/bench/estimate.h"
 
 #include <gtest/gtest.h>
@@ -42,9 +42,9 @@ TEST(CompiledPlan, FewerWavesAreHeavierThanMoreRegisters) {
 
 TEST(CompiledPlan, AVariantIsTheFeaturesThatAreOn) {
     Variant variant;
-    EXPECT_EQ(inWords(variant), "");
+    EXPECT_EQ(describe(variant), "");
     variant.set(gpu::FEATURE_point_lights).set(gpu::FEATURE_shadows, 2);
-    EXPECT_EQ(inWords(variant), "point_lights shadows=2");
+    EXPECT_EQ(describe(variant), "point_lights shadows=2");
 }
 
 // A switch is a feature that a view may lack: not a feature's parameter, and not the G-buffer's encoding.
@@ -75,9 +75,9 @@ TEST(CompiledPlan, SpillsAreWarningsAndWhatDoesNotCompileAnError) {
 }
 
 TEST(CompiledPlan, AFeatureIsWhatItAdds) {
-    EXPECT_EQ(bench::addedInWords({"area_lights", "shade", "x.frag", cost(102, 10, 700), cost(64, 16, 500)}),
+    EXPECT_EQ(bench::addedText({"area_lights", "shade", "x.frag", cost(102, 10, 700), cost(64, 16, 500)}),
               "+38 VGPRs, occupancy 16 -> 10, +200 cycles");
-    EXPECT_EQ(bench::addedInWords({"area_lights", "shade", "x.frag", cost(64, 16, 500), cost(72, 16, 500)}),
+    EXPECT_EQ(bench::addedText({"area_lights", "shade", "x.frag", cost(64, 16, 500), cost(72, 16, 500)}),
               "-8 VGPRs");
 }
 

@@ -49,16 +49,16 @@ TEST(FrameFacts, APixelWithOneComponentThatIsNoNumberOrInfiniteCountsOnce) {
 // Radiance clamped by a small format is reported, whether it becomes the largest number or infinity.
 TEST(FrameFacts, RadianceBeyondItsFormatIsSaid) {
     Image image(3, 1, 3, 1.0f);
-    EXPECT_FALSE(overflowInWords(image, LitFormat::fp16));
+    EXPECT_FALSE(overflowText(image, LitFormat::fp16));
     image.pixel(1)[2] = 65504;
     image.pixel(2)[0] = std::numeric_limits<float>::infinity();
-    EXPECT_FALSE(overflowInWords(image, LitFormat::fp32));
-    EXPECT_EQ(overflowInWords(image, LitFormat::fp16).value_or(""),
+    EXPECT_FALSE(overflowText(image, LitFormat::fp32));
+    EXPECT_EQ(overflowText(image, LitFormat::fp16).value_or(""),
               "lit: clamped to the range of fp16 at 2 pixels; use --lit-format fp32");
     image.pixel(1)[2] = 64512;  // largest value with 10 bits
-    EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("2 pixels"), std::string::npos);
+    EXPECT_NE(overflowText(image, LitFormat::b10g11r11).value_or("").find("2 pixels"), std::string::npos);
     image.pixel(1)[2] = 64000;
-    EXPECT_NE(overflowInWords(image, LitFormat::b10g11r11).value_or("").find("1 pixel;"), std::string::npos);
+    EXPECT_NE(overflowText(image, LitFormat::b10g11r11).value_or("").find("1 pixel;"), std::string::npos);
 }
 
 TEST(FrameFacts, WhatIsNoNumberIsRepairedAndNamed) {

@@ -77,7 +77,7 @@ std::vector<Settings> severalSettings() {
     return all;
 }
 
-TEST(CommandWords, TheCommandOfSettingsMeansTheSameSettings) {
+TEST(CommandArguments, TheCommandOfSettingsMeansTheSameSettings) {
     for (const Settings& settings : severalSettings())
         for (const std::string scene : {"builtin:gallery", "my scenes/a b.glb?scene=2", "-odd.glb"}) {
             const std::string line = commandOf("render", scene, settings);
@@ -89,7 +89,7 @@ TEST(CommandWords, TheCommandOfSettingsMeansTheSameSettings) {
         }
 }
 
-TEST(CommandWords, OnlyWhatIsNotTheDefaultIsSaid) {
+TEST(CommandArguments, OnlyWhatIsNotTheDefaultIsSaid) {
     EXPECT_EQ(commandOf("compare", "builtin:gallery", {}), "diptych compare builtin:gallery");
     Settings settings;
     settings.path = Path::deferred;
@@ -100,10 +100,10 @@ TEST(CommandWords, OnlyWhatIsNotTheDefaultIsSaid) {
               "diptych render --path deferred --gbuffer compact a.glb");
 }
 
-TEST(CommandWords, AnOptionCanBeAddedWhateverTheSceneIsCalled) {
+TEST(CommandArguments, AnOptionCanBeAddedWhateverTheSceneIsCalled) {
     for (const std::string scene : {"a.glb", "--help"}) {
-        const SceneGroup again =
-            parsedAgain(shellLine(withOption(commandWords("compare", scene, {}), "--channels", "normals")));
+        const SceneGroup again = parsedAgain(
+            shellLine(withOption(commandArguments("compare", scene, {}), "--channels", "normals")));
         EXPECT_EQ(again.channels, std::vector{Channel::normals});
         EXPECT_EQ(again.scenes, std::vector<std::string>{scene});
     }

@@ -23,8 +23,8 @@ const ChannelDiff& litOf(const Report& report) {
     throw std::runtime_error("no lit");
 }
 
-bool says(const std::vector<std::string>& lines, const std::string& words) {
-    return std::ranges::any_of(lines, [&](const std::string& l) { return l.find(words) != l.npos; });
+bool says(const std::vector<std::string>& lines, const std::string& text) {
+    return std::ranges::any_of(lines, [&](const std::string& l) { return l.find(text) != l.npos; });
 }
 
 // Two paths whose lit differs by a relative 0.25 at the only covered pixel; the encoding does not account

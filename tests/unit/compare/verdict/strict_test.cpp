@@ -358,7 +358,7 @@ TEST(Rules, AreRefusedForAChannelThatIsNone) {
 TEST(Strict, IsAnOptionOfCompareAndDiff) {
     const auto check = [](const auto& options) {
         EXPECT_TRUE(options.strict);
-        EXPECT_EQ(cli::wordsOfWhatCounts(options).back(), "--strict");
+        EXPECT_EQ(cli::verdictOptions(options).back(), "--strict");
         EXPECT_FALSE(options.allow_empty);
     };
     check(parsedAs<cli::CompareLine>({"compare", "builtin:points", "--strict"}));

@@ -31,7 +31,7 @@ FrameCamera cameraAt(const glm::dvec3& eye, const glm::dvec3& target) {
 View viewOf(const FlyCamera& camera) {
     const Scene scene = loadScene("builtin:gallery");
     ViewRequest request;
-    request.camera = camera.words();
+    request.camera = camera.describe();
     request.width = 64;
     request.height = 36;
     return makeSceneView(scene, request).view;

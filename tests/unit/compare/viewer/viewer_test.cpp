@@ -264,15 +264,15 @@ TEST(ViewerValues, AreToldToTheLastDigit) {
     image.at(1, 0, 0) = 0.1f;
     image.at(1, 0, 1) = std::nextafter(0.1f, 1.0f);
     image.at(1, 0, 2) = 1e-30f;
-    const std::string words = valueWords(image, 1, 0);
-    std::istringstream stream(words);
+    const std::string sentence = valueText(image, 1, 0);
+    std::istringstream stream(sentence);
     for (int c = 0; c < 3; ++c) {
         float value = 0;
         stream >> value;
-        EXPECT_EQ(value, image.at(1, 0, c)) << words;
+        EXPECT_EQ(value, image.at(1, 0, c)) << sentence;
     }
-    EXPECT_EQ(valueWords(image, 0, 0), "0 0 0");
-    EXPECT_EQ(valueWords(image, 2, 0), "");
+    EXPECT_EQ(valueText(image, 0, 0), "0 0 0");
+    EXPECT_EQ(valueText(image, 2, 0), "");
 }
 
 // ---- watched files ---------------------------------------------------------------------------------------

@@ -205,11 +205,11 @@ TEST(Settings, EveryRowIsComplete) {
 
 TEST(Settings, TheFuzzersDictionaryNamesThemAll) {
     std::ifstream stream(DIPTYCH_SOURCE_DIR "/tests/fuzz/settings.dict");
-    const std::string words(std::istreambuf_iterator<char>(stream), {});
+    const std::string sentence(std::istreambuf_iterator<char>(stream), {});
     for (const Field& field : settingFields()) {
         std::string key(field.option);
         std::ranges::replace(key, '-', '_');
-        EXPECT_NE(words.find("\"\\\"" + key + "\\\"\""), std::string::npos) << key;
+        EXPECT_NE(sentence.find("\"\\\"" + key + "\\\"\""), std::string::npos) << key;
     }
 }
 

@@ -88,7 +88,7 @@ TEST(Sides, TellWhatChangesLight) {
     right.cull = false;
     const std::vector<SettingDifference> all = settingDifferences(left, right);
     ASSERT_EQ(all.size(), 1u) << "deferred has no depth pre-pass";
-    EXPECT_EQ(inWords(all), "--cull on and off");
+    EXPECT_EQ(describe(all), "--cull on and off");
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ Scene closedRoom(bool crates = true) {
 }
 
 std::string wordsOf(const DefaultView& view) {
-    return view.inWords();
+    return view.describe();
 }
 
 }  // namespace
@@ -249,7 +249,7 @@ TEST(DefaultView, IsTheSameEveryTimeAndForEverySize) {
     EXPECT_EQ(views.at(wide).view.eye(), a.eye);
     EXPECT_EQ(views.at(tall).view.eye(), a.eye);
     EXPECT_NEAR(glm::length(views.at(wide).view.backward() - a.backward), 0, 1e-12);
-    EXPECT_EQ(views.at(wide).default_view, a.inWords());
+    EXPECT_EQ(views.at(wide).default_view, a.describe());
 }
 
 // The default sun is behind the default view's viewer, even if another camera is requested.

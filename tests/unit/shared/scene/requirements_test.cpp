@@ -338,7 +338,7 @@ TEST(Requirements, AreaLightsAndEnvironmentsAreModelledDiscsOfSunsLeftOut) {
     EXPECT_EQ(r.lights(LightKind::tube), 2u);
     EXPECT_EQ(r.sun_discs, 1u);
     EXPECT_EQ(r.lights(), 5u);
-    EXPECT_EQ(r.areaLightsInWords(), "4 area lights (1 rect, 1 disc, 2 tube)");
+    EXPECT_EQ(r.areaLightsText(), "4 area lights (1 rect, 1 disc, 2 tube)");
     const auto after = r.lines();
     EXPECT_TRUE(line(after, "area lights").modelled);
     EXPECT_FALSE(line(after, "sun discs").modelled);
@@ -367,7 +367,7 @@ TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     for (const char* what : {"animation", "skins and morph targets"})
         EXPECT_FALSE(line(before, what).modelled);
     EXPECT_EQ(line(before, "skins and morph targets").why, "no mesh is skinned or morphed: no deformation");
-    EXPECT_EQ(of(scene).deformedInWords(), "");
+    EXPECT_EQ(of(scene).deformedText(), "");
 
     const std::size_t corners = scene.meshes[0].primitives[0].positions.size();
     scene.meshes[0].primitives.push_back(scene.meshes[0].primitives[0]);
@@ -381,7 +381,7 @@ TEST(Requirements, SkinsMorphTargetsAndAnimations) {
     scene.nodes[0].skin = scene.nodes[1].skin = 0;
     EXPECT_EQ(of(scene).skinned, 2u);
     EXPECT_EQ(of(scene).morphed, 0u);
-    EXPECT_EQ(of(scene).deformedInWords(), "2 skinned meshes: 12 vertices by 2 joints");
+    EXPECT_EQ(of(scene).deformedText(), "2 skinned meshes: 12 vertices by 2 joints");
     scene.weights = {{0.5f}};
     scene.nodes[1].weights = 0;
     scene.nodes[1].skin = -1;
@@ -392,14 +392,14 @@ TEST(Requirements, SkinsMorphTargetsAndAnimations) {
         scene.animations[moving].channels = {{1, 0, AnimatedPart::weights}};
     }
     const Requirements r = of(scene);
-    EXPECT_EQ(r.deformedInWords(), "1 skinned mesh, 1 morphed: 12 vertices by 2 joints");
+    EXPECT_EQ(r.deformedText(), "1 skinned mesh, 1 morphed: 12 vertices by 2 joints");
     EXPECT_EQ(r.animations, 2u);
     const auto after = r.lines();
     EXPECT_TRUE(line(after, "animation").modelled);
     EXPECT_TRUE(line(after, "skins and morph targets").modelled);
-    EXPECT_EQ(line(after, "skins and morph targets").why, r.deformedInWords());
+    EXPECT_EQ(line(after, "skins and morph targets").why, r.deformedText());
     scene.nodes[0].skin = -1;
-    EXPECT_EQ(of(scene).deformedInWords(), "1 morphed mesh: 6 vertices");
+    EXPECT_EQ(of(scene).deformedText(), "1 morphed mesh: 6 vertices");
 }
 
 TEST(Requirements, LinesSayWhy) {

@@ -279,7 +279,7 @@ TEST(EnvironmentSun, TurnsWithTheEnvironment) {
     EXPECT_LT(glm::length(turned.direction - glm::dvec3(0, 0, 1)), 1e-15);
     EXPECT_EQ(turned.intensity, 6);
     EXPECT_EQ(
-        inWords(turned, 0.25),
+        describe(turned, 0.25),
         "of 0 degrees towards (0.000, 0.000, -1.000), 6 lux (6, 6, 6), 25 % of the environment's light");
 }
 
@@ -295,7 +295,7 @@ TEST(EnvironmentSun, OfRealEnvironments) {
         std::vector<std::string> notes;
         const Environment sky = readEnvironment(folder / name, notes);
         const EnvironmentSun sun = environmentSun(sky);
-        RecordProperty(name, sun.found ? inWords(sun.light, sun.share) : sun.why);
+        RecordProperty(name, sun.found ? describe(sun.light, sun.share) : sun.why);
         EXPECT_EQ(sun.found, share > 0) << name;
         if (!sun.found) continue;
         expectAllIsKept(sky, sun, name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The command printed in a report has every option that affects the verdict, as given.
-#include "compare/cli/verdict_words.h"
+#include "compare/cli/verdict_options.h"
 #include "compare/cli/command_compare.h"
 #include "compare/cli/command_diff.h"
 #include "tests/support/command_lines.h"
@@ -18,7 +18,7 @@ using VerdictWordList = std::vector<std::string>;
 template <class Line>
 VerdictWordList wordsAgain(VerdictWordList command, const VerdictWordList& said) {
     command.insert(command.end(), said.begin(), said.end());
-    return cli::wordsOfWhatCounts(parsedAs<Line>(command));
+    return cli::verdictOptions(parsedAs<Line>(command));
 }
 
 TEST(VerdictWords, OfDiffAreThoseThatWereGiven) {

@@ -163,7 +163,7 @@ std::vector<std::string> alternatives(const std::string& accepted) {
 template <class T>
 using CodecOf = Codec<std::remove_cvref_t<T>>;
 
-std::string inWords(const std::string& accepted) {
+std::string describe(const std::string& accepted) {
     return accepted == "N" ? "a whole number in range" : accepted == "F" ? "a number" : accepted;
 }
 
@@ -243,7 +243,7 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
         if (!readJson<Value>(member, field, object[key]))
             throw std::runtime_error(fmt::format("settings: \"{}\": {} is not {}", key,
                                                  oneLine(jsonText(object[key], -1)),
-                                                 inWords(Value::accepted())));
+                                                 describe(Value::accepted())));
     });
     if (unknown.erase(std::string(earlier_name)) != 0) {
         const Json& value = object[std::string(earlier_name)];
@@ -270,7 +270,7 @@ void Settings::set(std::string_view option, const std::string& value) {
         using Value = CodecOf<decltype(member)>;
         if (!Value::read(member, ownWord(field, value)))
             throw std::runtime_error(fmt::format("--{} {}: not {}{}", option, value,
-                                                 inWords(Value::accepted()),
+                                                 describe(Value::accepted()),
                                                  didYouMean(value, alternatives(Value::accepted()))));
     });
 }

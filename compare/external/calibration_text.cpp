@@ -16,13 +16,13 @@ Json correctionsOf(std::span<const Deviation> deviations) {
 
 }  // namespace
 
-std::string inWords(const Renderer& renderer, std::span<const Deviation> deviations) {
-    const std::vector<std::string> granted = inWords(renderer.corrections);
+std::string describe(const Renderer& renderer, std::span<const Deviation> deviations) {
+    const std::vector<std::string> granted = describe(renderer.corrections);
     const Json corrections = correctionsOf(deviations);
     std::string out;
     for (const std::string& line : granted) out += fmt::format("granted {}\n", line);
     for (const Deviation& one : deviations)
-        out += fmt::format("FAIL {}: {}{}\n", one.name, one.words,
+        out += fmt::format("FAIL {}: {}{}\n", one.name, one.text,
                            one.correction.empty() ? "; no input correction exists for it" : "");
     if (deviations.empty()) out += "pass: it interprets its inputs as Diptych does\n";
     if (!corrections.empty())
@@ -37,11 +37,11 @@ Json toJson(const Renderer& renderer, std::span<const Deviation> deviations) {
     Json json{{"schema", 1},
               {"renderer", renderer.file.string()},
               {"verdict", deviations.empty() ? "pass" : "fail"},
-              {"granted_already", inWords(renderer.corrections)},
+              {"granted_already", describe(renderer.corrections)},
               {"deviations", Json::array()},
               {"granted", correctionsOf(deviations)}};
     for (const Deviation& one : deviations)
-        json["deviations"].push_back({{"name", one.name}, {"words", one.words}, {"grant", one.correction}});
+        json["deviations"].push_back({{"name", one.name}, {"words", one.text}, {"grant", one.correction}});
     return json;
 }
 

@@ -16,7 +16,7 @@ namespace diptych::bench {
 std::string compiledText(std::span<const CompiledPath> paths, const DeviceInfo& device);
 
 // The changed statistics: "+38 VGPRs, occupancy 16 -> 10, +2,048 bytes".
-std::string addedInWords(const FeatureCost& cost);
+std::string addedText(const FeatureCost& cost);
 
 nlohmann::ordered_json compiledJson(std::span<const CompiledPath> paths, const DeviceInfo& device);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cli/verdict_words.h"
+#include "compare/cli/verdict_options.h"
 
 #include <fmt/ranges.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/bench/compiled_words.h"
+#include "compare/bench/compiled_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -77,7 +77,7 @@ Json pipelineJson(const PlannedPipeline& pipeline) {
 
 }  // namespace
 
-std::string addedInWords(const FeatureCost& cost) {
+std::string addedText(const FeatureCost& cost) {
     std::vector<std::string> words;
     for (const ShaderCostRow& row : shaderCostRows()) {
         const ShaderCost::Value with = cost.with.*row.value, without = cost.without.*row.value;
@@ -120,7 +120,7 @@ std::string compiledText(std::span<const CompiledPath> paths, const DeviceInfo& 
         if (!path.features.empty())
             text += fmt::format("  cost of each feature in {}'s heaviest pipelines\n", nameOf(path.path));
         for (const FeatureCost& cost : path.features)
-            text += fmt::format("    {:<26} {} ({})\n", cost.feature, addedInWords(cost), cost.shader);
+            text += fmt::format("    {:<26} {} ({})\n", cost.feature, addedText(cost), cost.shader);
     }
     for (const CompiledPath& path : paths) {
         for (const std::string& line : path.errors) text += fmt::format("  error: {}\n", line);
