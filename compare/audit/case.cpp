@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/audit/case.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/scene/visible_surface.h"
 
 #include <glm/ext/matrix_transform.hpp>

@@ -3,7 +3,7 @@
 
 #include "compare/experiment/errors.h"
 #include "compare/experiment/kept.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/image/channel_image.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/flip.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/bench.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/page/text.h"
 #include "compare/render/sample_counts.h"
 #include "shared/text/counted.h"

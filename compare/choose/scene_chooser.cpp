@@ -6,7 +6,7 @@
 #include "compare/experiment/grid.h"
 #include "compare/experiment/sensitivity.h"
 #include "compare/experiment/sweep.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/page/text.h"
 #include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"

@@ -2,7 +2,7 @@
 #include "compare/choose/variations.h"
 
 #include "compare/experiment/evaluator.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
 #include "forward_plus/prepass.h"

@@ -38,19 +38,19 @@ using ProbeResults = std::map<int, std::vector<probe::Result>>;  // key: device 
 nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices, const ProbeResults& probes) {
     nlohmann::ordered_json json{{"schema", 1}, {"devices", nlohmann::ordered_json::array()}};
     for (const DeviceInfo& device : devices) {
-        nlohmann::ordered_json facts = nlohmann::ordered_json::array();
-        for (const DeviceFact& fact : device.facts)
-            facts.push_back({{"what", fact.what},
-                             {"there", fact.there},
-                             {"required", fact.required},
-                             {"note", fact.note}});
+        nlohmann::ordered_json properties = nlohmann::ordered_json::array();
+        for (const DeviceProperty& property : device.properties)
+            properties.push_back({{"what", property.what},
+                                  {"there", property.there},
+                                  {"required", property.required},
+                                  {"note", property.note}});
         json["devices"].push_back({{"index", device.index},
                                    {"name", device.name},
                                    {"driver", device.driver},
                                    {"type", device.type},
                                    {"api_version", device.api_version},
                                    {"usable", device.usable()},
-                                   {"facts", facts}});
+                                   {"facts", properties}});
         if (const auto found = probes.find(device.index); found != probes.end())
             json["devices"].back()["probes"] = probe::jsonOf(found->second);
     }
@@ -60,9 +60,9 @@ nlohmann::ordered_json jsonOf(const std::vector<DeviceInfo>& devices, const Prob
 void print(const DeviceInfo& device) {
     printOut("{}  {} ({}, {}, Vulkan {}){}\n", device.index, device.name, device.type, device.driver,
              device.api_version, device.usable() ? "" : ": cannot be used");
-    for (const DeviceFact& fact : device.facts)
-        printOut("     {:<3}  {:<38} {}{}\n", fact.there ? "yes" : "no", fact.what, fact.note,
-                 fact.required && !fact.there ? " (required)" : "");
+    for (const DeviceProperty& property : device.properties)
+        printOut("     {:<3}  {:<38} {}{}\n", property.there ? "yes" : "no", property.what, property.note,
+                 property.required && !property.there ? " (required)" : "");
 }
 
 int runDevices(const DevicesLine& options) {
@@ -77,12 +77,14 @@ int runDevices(const DevicesLine& options) {
     for (DeviceInfo& device : devices) {
         if (!device.usable()) continue;
         Device opened({std::to_string(device.index), options.validate});
-        for (DeviceFact& fact : opened.probe()) device.facts.push_back(std::move(fact));
+        for (DeviceProperty& property : opened.probe()) device.properties.push_back(std::move(property));
         const TextureSampling texels = probeTextures(opened),
                               exact = probeTextures(opened, TexturePrecision::exact);
-        for (DeviceFact& fact : textureFacts(opened, texels, exact)) device.facts.push_back(std::move(fact));
+        for (DeviceProperty& property : textureProperties(opened, texels, exact))
+            device.properties.push_back(std::move(property));
         if (options.probe) {
-            for (DeviceFact& fact : probe::roundingFacts(opened)) device.facts.push_back(std::move(fact));
+            for (DeviceProperty& property : probe::roundingProperties(opened))
+                device.properties.push_back(std::move(property));
             probes[device.index] = probe::runProbes(opened, probe::allProbes(), Stage(progress, device.name));
         }
         checkValidation(opened);

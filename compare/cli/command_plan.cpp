@@ -3,7 +3,7 @@
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
 #include "compare/cli/exit_code.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/run/print.h"
 #include "shared/text/json_text.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/cli/output_group.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/image/channel_image.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/renderer.h"

@@ -3,7 +3,7 @@
 
 #include "compare/experiment/two_devices.h"
 #include "compare/external/external_frame.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/renderer.h"
 #include "compare/run/command_text.h"
 #include "compare/verdict/baseline.h"

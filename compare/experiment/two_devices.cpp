@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/experiment/two_devices.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/channel_shading.h"
 #include "compare/verdict/texel_ranges.h"
 #include "shared/contract/debug_mode.h"

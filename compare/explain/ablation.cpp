@@ -2,7 +2,7 @@
 #include "compare/explain/ablation.h"
 
 #include "compare/explain/frame_images.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 

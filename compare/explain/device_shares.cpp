@@ -2,7 +2,7 @@
 #include "compare/explain/device_shares.h"
 
 #include "compare/explain/lighting_components.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/metrics/channel.h"
 #include "compare/render/channel_shading.h"
 #include "compare/verdict/surface_grid.h"

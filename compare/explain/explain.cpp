@@ -8,7 +8,7 @@
 #include "compare/explain/light_shares.h"
 #include "compare/explain/shapley.h"
 #include "compare/explain/undeclared_settings.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/metrics/flip.h"
 #include "compare/metrics/pixel.h"
 #include "shared/contract/debug_mode.h"

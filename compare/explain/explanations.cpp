@@ -5,7 +5,7 @@
 #include "compare/explain/explain.h"
 #include "compare/explain/images.h"
 #include "compare/explain/write.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"

@@ -62,13 +62,13 @@ Json stepsJson(const PixelBreakdown& breakdown) {
 Json lightsJson(const PixelBreakdown& breakdown) {
     Json lights = Json::array();
     for (std::size_t i = 0; i < breakdown.lights.size(); ++i) {
-        const PixelLightFacts& facts = breakdown.lights[i];
+        const PixelLightProperties& properties = breakdown.lights[i];
         Json one{{"light", i},
-                 {"name", facts.name},
-                 {"kind", facts.kind},
-                 {"distance", finiteOrNull(facts.distance)},
-                 {"range", finiteOrNull(facts.range)},
-                 {"casts", facts.casts}};
+                 {"name", properties.name},
+                 {"kind", properties.kind},
+                 {"distance", finiteOrNull(properties.distance)},
+                 {"range", finiteOrNull(properties.range)},
+                 {"casts", properties.casts}};
         for (std::size_t side = 0; side < 2; ++side) {
             const auto& list = breakdown.lists.at(side);
             one[side == 0 ? "in_baseline_list" : "in_test_list"] =

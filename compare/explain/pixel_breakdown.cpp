@@ -2,7 +2,7 @@
 #include "compare/explain/pixel_breakdown.h"
 
 #include "compare/explain/frame_images.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/metrics/channel.h"
 #include "compare/metrics/pixel.h"
 #include "compare/reference/pixel.h"
@@ -86,7 +86,7 @@ public:
         const Values blended = blendedOver();
         breakdown_.blended = largest(blended[0]) > 0 || largest(blended[1]) > 0;
         for (const Channel mode : pixelSteps()) takeStep(debugMode(mode));
-        takeFacts();
+        takeProperties();
         if (breakdown_.shown) takeTerms();
         return std::move(breakdown_);
     }
@@ -159,7 +159,7 @@ private:
         breakdown_.steps.push_back(std::move(step));
     }
 
-    void takeFacts() {
+    void takeProperties() {
         const std::vector<std::size_t> casters =
             query_.baseline.shadows == Shadows::off
                 ? std::vector<std::size_t>{}

@@ -80,7 +80,7 @@ struct PixelTerm {
 };
 
 // Description of a light of the scene.
-struct PixelLightFacts {
+struct PixelLightProperties {
     std::string name;  // as in the file, for one line; may be empty
     std::string_view kind;
     double distance = 0;  // m, from the pixel's position; infinite for a directional light
@@ -93,14 +93,14 @@ struct PixelBreakdown {
     int x = 0, y = 0;
     std::array<Settings, 2> settings;  // baseline, test
     ReferenceMode mode = ReferenceMode::surface;
-    std::array<std::string, 2> names;     // "deferred"
-    bool shown = false;                   // either path shows an opaque surface; else the background
-    bool blended = false;                 // a blended surface changes lit in either path
-    int material = -1;                    // the baseline's, or else the test's
-    std::string material_name;            // for one line; may be empty
-    glm::dvec3 position{0};               // of the same surface, world, m
-    std::vector<PixelStep> steps;         // in order of computation
-    std::vector<PixelLightFacts> lights;  // by index in SceneView::lights
+    std::array<std::string, 2> names;          // "deferred"
+    bool shown = false;                        // either path shows an opaque surface; else the background
+    bool blended = false;                      // a blended surface changes lit in either path
+    int material = -1;                         // the baseline's, or else the test's
+    std::string material_name;                 // for one line; may be empty
+    glm::dvec3 position{0};                    // of the same surface, world, m
+    std::vector<PixelStep> steps;              // in order of computation
+    std::vector<PixelLightProperties> lights;  // by index in SceneView::lights
     // The lights that each path evaluates, ascending indices; empty optional: unknown.
     std::array<std::optional<std::vector<std::size_t>>, 2> lists{};
     std::vector<PixelTerm> terms;  // empty in the background; ends with sum, lit and residual

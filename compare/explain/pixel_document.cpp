@@ -102,20 +102,20 @@ std::string titleOf(const PixelBreakdown& breakdown, const PixelTerm& term) {
         return counted(term.lights.size(),
                        term.lights.size() == breakdown.lights.size() ? "light" : "other light");
     if (term.kind != PixelTerm::Kind::light) return titles.at(static_cast<std::size_t>(term.kind));
-    const PixelLightFacts& facts = breakdown.lights.at(term.lights.front());
-    return fmt::format("light {}, {}{}", term.lights.front(), facts.kind,
-                       facts.name.empty() ? "" : fmt::format(" \"{}\"", facts.name));
+    const PixelLightProperties& properties = breakdown.lights.at(term.lights.front());
+    return fmt::format("light {}, {}{}", term.lights.front(), properties.kind,
+                       properties.name.empty() ? "" : fmt::format(" \"{}\"", properties.name));
 }
 
 std::string notesOn(const PixelBreakdown& breakdown, const PixelTerm& term) {
     std::vector<std::string> words;
     if (term.kind == PixelTerm::Kind::light) {
-        const PixelLightFacts& facts = breakdown.lights.at(term.lights.front());
-        if (std::isfinite(facts.distance))
-            words.push_back(
-                fmt::format("{:.4g} m away{}", facts.distance,
-                            std::isfinite(facts.range) ? fmt::format(" (range {:.4g} m)", facts.range) : ""));
-        if (facts.casts) words.emplace_back("casts a shadow");
+        const PixelLightProperties& properties = breakdown.lights.at(term.lights.front());
+        if (std::isfinite(properties.distance))
+            words.push_back(fmt::format(
+                "{:.4g} m away{}", properties.distance,
+                std::isfinite(properties.range) ? fmt::format(" (range {:.4g} m)", properties.range) : ""));
+        if (properties.casts) words.emplace_back("casts a shadow");
         for (std::size_t side = 0; side < 2; ++side)
             if (const auto& list = breakdown.lists.at(side);
                 list && !std::ranges::binary_search(*list, term.lights.front()))

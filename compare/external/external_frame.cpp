@@ -4,7 +4,7 @@
 #include "compare/external/child_process.h"
 #include "compare/external/job.h"
 #include "compare/files/frame_exr.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/srgb.h"

@@ -5,7 +5,7 @@
 #include "compare/files/frame_json.h"
 #include "compare/files/gltf_file.h"
 #include "compare/files/our_files.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/run/version.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"

@@ -27,7 +27,7 @@ Result runProbe(DeviceRows& rows, const Probe& probe, std::size_t most_rows = SI
 Result concluded(const Probe& probe, Tally tally);
 
 // How the device rounds where Vulkan leaves a choice: denormals, sums, fused products, halves.
-std::vector<DeviceFact> roundingFacts(Device& device);
+std::vector<DeviceProperty> roundingProperties(Device& device);
 
 std::vector<Result> runProbes(Device& device, std::span<const Probe> probes, const Stage& progress);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/channel_shading.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "deferred/channel_lighting.h"
 #include "shared/contract/gbuffer.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/host_memory.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/scene/lights/casters.h"
 
 #include <fmt/format.h>

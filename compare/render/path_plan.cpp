@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/path_plan.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
 #include "shared/material/gbuffer_layout.h"

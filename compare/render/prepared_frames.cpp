@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/prepared_frames.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/prepared_view.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/left_out.h"
 #include "shared/draw/light_batches.h"
 #include "shared/draw/pipeline_parts.h"

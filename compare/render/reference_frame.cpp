@@ -2,7 +2,7 @@
 #include "compare/render/reference_frame.h"
 
 #include "compare/files/output.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
 #include "compare/render/host_memory.h"

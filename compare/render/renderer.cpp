@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/renderer.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
 #include "compare/render/host_memory.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/timing.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/run/progress.h"
 
 #include <fmt/format.h>

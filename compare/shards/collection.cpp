@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/collection.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/reference_frame.h"
 #include "compare/render/shown_scene.h"
 #include "shared/scene/load.h"

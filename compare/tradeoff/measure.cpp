@@ -2,7 +2,7 @@
 #include "compare/tradeoff/measure.h"
 
 #include "compare/experiment/upsample.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/page/text.h"
 #include "compare/render/timing.h"
 #include "compare/run/progress.h"

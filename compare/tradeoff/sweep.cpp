@@ -4,7 +4,7 @@
 #include "compare/experiment/kept.h"
 #include "compare/experiment/sensitivity.h"
 #include "compare/external/external_frame.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/shown_scene.h"
 #include "compare/tradeoff/measure.h"
 #include "shared/contract/debug_mode.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/comparison.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/surface_grid.h"

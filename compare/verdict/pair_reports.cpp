@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/verdict/pair_reports.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/reference/reference.h"
 #include "compare/run/command_text.h"
 #include "compare/run/progress.h"

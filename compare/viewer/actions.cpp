@@ -91,7 +91,8 @@ std::optional<std::string> actOnState(const KeyPress& pressed, bool shift, const
             state.information = !state.information;
             break;
         case Action::play:
-            if (!contents.facts || !(contents.facts->duration > 0)) return "this scene has no animation";
+            if (!contents.properties || !(contents.properties->duration > 0))
+                return "this scene has no animation";
             state.playing = !state.playing;
             break;
         case Action::scene_lights:

@@ -59,8 +59,8 @@ std::shared_ptr<const Judged> DrawingThread::judged() const {
 std::shared_ptr<const Breakdown> DrawingThread::breakdown() const {
     return state_->mailbox.get(&Mailbox::breakdown);
 }
-std::shared_ptr<const SceneFacts> DrawingThread::facts() const {
-    return state_->mailbox.get(&Mailbox::facts);
+std::shared_ptr<const SceneProperties> DrawingThread::properties() const {
+    return state_->mailbox.get(&Mailbox::properties);
 }
 Status DrawingThread::status() const {
     return state_->mailbox.get(&Mailbox::status);

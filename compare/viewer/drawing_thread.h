@@ -33,7 +33,7 @@ public:
     std::shared_ptr<const Shown> shown() const;  // nullptr before the first image
     std::shared_ptr<const Judged> judged() const;
     std::shared_ptr<const Breakdown> breakdown() const;
-    std::shared_ptr<const SceneFacts> facts() const;  // of the loaded scene; nullptr: none
+    std::shared_ptr<const SceneProperties> properties() const;  // of the loaded scene; nullptr: none
     Status status() const;
     bool idle() const;  // the request is complete
     std::string device() const;

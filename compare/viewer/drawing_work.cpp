@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/drawing_work.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/output/writers.h"
 #include "compare/render/path_plan.h"
 #include "compare/run/progress.h"
 #include "compare/verdict/pair_reports.h"
-#include "compare/viewer/facts.h"
 #include "compare/viewer/image_cost.h"
 #include "compare/viewer/images.h"
 #include "compare/viewer/left_panel.h"
 #include "compare/viewer/pair_renderer.h"
+#include "compare/viewer/properties.h"
 #include "compare/viewer/screenshot.h"
 
 #include <fmt/format.h>
@@ -191,10 +191,10 @@ private:
         }
         if (!pair_.load(order_.subject)) return;
         left_.stopReference();
-        auto known = std::make_shared<SceneFacts>(factsOf(*pair_.scene(), order_.subject.scene));
+        auto known = std::make_shared<SceneProperties>(propertiesOf(*pair_.scene(), order_.subject.scene));
         {
             const std::lock_guard lock(box_.mutex);
-            box_.facts = std::move(known);
+            box_.properties = std::move(known);
             box_.status.loading = false;
             box_.status.error.clear();
         }
@@ -222,8 +222,8 @@ private:
                 settingsOf(order_.subject, drawn_paths[1], size)};
     }
 
-    void takeFacts(const std::array<const Frame*, 2>& of, bool timed_too) {
-        for (std::size_t i = 0; i < 2; ++i) viewer::takeFacts(*of.at(i), timed_too, paths_.at(i));
+    void takeProperties(const std::array<const Frame*, 2>& of, bool timed_too) {
+        for (std::size_t i = 0; i < 2; ++i) viewer::takeProperties(*of.at(i), timed_too, paths_.at(i));
     }
 
     // Shows a smaller image first if a still one takes long.
@@ -270,7 +270,7 @@ private:
             if (passing && compiled_ == pair_.renderer().pipelines())
                 cost_.add(double(size.width) * size.height, frames_ms > 0 ? frames_ms : msSince(start));
             compiled_ = pair_.renderer().pipelines();
-            takeFacts(now, passing && mode == Channel::lit);
+            takeProperties(now, passing && mode == Channel::lit);
         }
         show(now, size, passing, start);
     }
@@ -318,7 +318,7 @@ private:
     // ---- results beside a still image -----------------------------------------------------------------
 
     // The image shown, with the present facts of the paths.
-    std::shared_ptr<const Shown> shownWithFacts() const {
+    std::shared_ptr<const Shown> shownWithProperties() const {
         auto next = std::make_shared<Shown>(*box_.shown);
         next->paths = paths_;
         return next;
@@ -337,7 +337,7 @@ private:
         }
         cost_.add(double(settings[0].size.width) * settings[0].size.height, paths_[0].ms + paths_[1].ms);
         timed_ = both_;
-        auto next = shownWithFacts();
+        auto next = shownWithProperties();
         const std::lock_guard lock(box_.mutex);
         box_.shown = std::move(next);
     }
@@ -400,8 +400,8 @@ private:
                     frames_.at(i) = std::shared_ptr<const Frame>(next, &frame);
         drawn_ = both_;
         drawn_channels_ = everyChannel();
-        takeFacts({frames_[0].get(), frames_[1].get()}, false);
-        auto again = shownWithFacts();
+        takeProperties({frames_[0].get(), frames_[1].get()}, false);
+        auto again = shownWithProperties();
         box_.publish([&] {
             box_.judged = std::move(next);
             box_.shown = std::move(again);
@@ -465,7 +465,7 @@ private:
     std::optional<Subject> timed_, judged_of_;
     Against judged_against_ = Against::paths;
     std::optional<std::pair<Subject, PixelPlace>> broken_down_;
-    std::array<PathFacts, 2> paths_;
+    std::array<PathProperties, 2> paths_;
     ImageCost cost_;                    // of moving images, once their pipelines exist
     std::size_t compiled_ = 0;          // number of pipelines after the last image
     std::optional<Exposure> exposure_;  // of the last still image

@@ -20,11 +20,11 @@ void push(std::deque<float>& values, double value) {
 
 }  // namespace
 
-void History::add(const PathFacts& facts) {
-    if (facts.ms <= 0 || facts.measurement == measurement) return;
-    measurement = facts.measurement;
-    push(total, facts.ms);
-    for (const PassTime& pass : facts.passes) push(passes[pass.name], pass.ms);
+void History::add(const PathProperties& properties) {
+    if (properties.ms <= 0 || properties.measurement == measurement) return;
+    measurement = properties.measurement;
+    push(total, properties.ms);
+    for (const PassTime& pass : properties.passes) push(passes[pass.name], pass.ms);
 }
 
 std::array<int, barWidths.size()> barRows(int width, double scale) {

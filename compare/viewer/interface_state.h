@@ -25,7 +25,7 @@ struct History {
     std::uint64_t measurement = 0;  // the last one added
     std::deque<float> total;
     std::map<std::string, std::deque<float>> passes;
-    void add(const PathFacts& facts);
+    void add(const PathProperties& properties);
 };
 
 enum class Tab { verdict, settings, scene, pixel, cost };
@@ -66,7 +66,7 @@ struct Contents {
     std::shared_ptr<const Shown> shown;
     std::shared_ptr<const Judged> judged;
     std::shared_ptr<const Breakdown> breakdown;
-    std::shared_ptr<const SceneFacts> facts;
+    std::shared_ptr<const SceneProperties> properties;
     Status status;
     std::string drawn_by, shown_by;   // names of the devices
     std::optional<PixelUnder> under;  // under the cursor

@@ -2,7 +2,7 @@
 #include "compare/viewer/left_panel.h"
 
 #include "compare/files/frame_exr.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/reference/reference.h"
 
 #include <stdexcept>

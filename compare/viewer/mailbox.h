@@ -33,7 +33,7 @@ struct Mailbox {
     std::shared_ptr<const Shown> shown;
     std::shared_ptr<const Judged> judged;
     std::shared_ptr<const Breakdown> breakdown;
-    std::shared_ptr<const SceneFacts> facts;
+    std::shared_ptr<const SceneProperties> properties;
     Status status;
     std::string device_name;
     std::uint64_t validation_messages = 0;

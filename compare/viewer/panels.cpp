@@ -47,11 +47,11 @@ void pixelTab(InterfaceState& state, const Contents& contents) {
 
 // ---- cost ---------------------------------------------------------------------------------------------
 
-void passTable(const PathFacts& facts, const History& history, float scale) {
+void passTable(const PathProperties& properties, const History& history, float scale) {
     double sum = 0;
-    for (const PassTime& pass : facts.passes) sum += pass.ms;
-    if (!beginTable(facts.name.c_str(), {"pass", "ms", "share", "last frames"}, 0)) return;
-    for (const PassTime& pass : facts.passes) {
+    for (const PassTime& pass : properties.passes) sum += pass.ms;
+    if (!beginTable(properties.name.c_str(), {"pass", "ms", "share", "last frames"}, 0)) return;
+    for (const PassTime& pass : properties.passes) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         wrapped(pass.name);
@@ -63,8 +63,9 @@ void passTable(const PathFacts& facts, const History& history, float scale) {
         const auto found = history.passes.find(pass.name);
         if (found == history.passes.end() || found->second.empty()) continue;
         const std::vector<float> flat(found->second.begin(), found->second.end());
-        ImGui::PlotLines(("##" + facts.name + pass.name).c_str(), flat.data(), static_cast<int>(flat.size()),
-                         0, nullptr, 0, 1.2f * *std::ranges::max_element(flat), {120 * scale, 18 * scale});
+        ImGui::PlotLines(("##" + properties.name + pass.name).c_str(), flat.data(),
+                         static_cast<int>(flat.size()), 0, nullptr, 0, 1.2f * *std::ranges::max_element(flat),
+                         {120 * scale, 18 * scale});
     }
     ImGui::EndTable();
 }
@@ -74,16 +75,16 @@ void costTab(const Contents& contents, float scale) {
             &faint);
     if (!contents.shown || !contents.history) return;
     for (std::size_t i = 0; i < 2; ++i) {
-        const PathFacts& facts = contents.shown->paths.at(i);
-        if (facts.name.empty()) continue;
+        const PathProperties& properties = contents.shown->paths.at(i);
+        if (properties.name.empty()) continue;
         ImGui::Separator();
-        ImGui::Text("%s: %.2f ms per frame", facts.name.c_str(), facts.ms);
+        ImGui::Text("%s: %.2f ms per frame", properties.name.c_str(), properties.ms);
         constexpr double mib = 1 << 20;
         ImGui::TextWrapped("images %.2f MiB, buffers %.2f MiB; geometry buffers %llu bytes per pixel",
-                           static_cast<double>(facts.bytes.images) / mib,
-                           static_cast<double>(facts.bytes.buffers) / mib,
-                           static_cast<unsigned long long>(facts.bytes.gbuffer_per_pixel));
-        passTable(facts, contents.history->at(i), scale);
+                           static_cast<double>(properties.bytes.images) / mib,
+                           static_cast<double>(properties.bytes.buffers) / mib,
+                           static_cast<unsigned long long>(properties.bytes.gbuffer_per_pixel));
+        passTable(properties, contents.history->at(i), scale);
     }
 }
 
@@ -91,17 +92,18 @@ void costTab(const Contents& contents, float scale) {
 
 // The lines below the paths' times.
 std::vector<std::pair<std::string, ImVec4>> timesLines(const Contents& contents) {
-    const PathFacts& facts = contents.shown->paths[1];
+    const PathProperties& properties = contents.shown->paths[1];
     const ImVec4 standard = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-    std::vector<std::pair<std::string, ImVec4>> lines{{counted(facts.counters.lights, "light"), standard}};
-    if (facts.mean_lights)
+    std::vector<std::pair<std::string, ImVec4>> lines{
+        {counted(properties.counters.lights, "light"), standard}};
+    if (properties.mean_lights)
         lines[0].first += fmt::format("; a pixel evaluates {:.1f} on average, at most {:.0f}",
-                                      *facts.mean_lights, *facts.most_lights);
-    if (facts.counters.overflowed_lists > 0)
-        lines.emplace_back(counted(facts.counters.overflowed_lists, "light list") + " overflowed",
+                                      *properties.mean_lights, *properties.most_lights);
+    if (properties.counters.overflowed_lists > 0)
+        lines.emplace_back(counted(properties.counters.overflowed_lists, "light list") + " overflowed",
                            ImVec4{1, 0.6f, 0.3f, 1});
-    if (facts.counters.nonfinite_pixels > 0)
-        lines.emplace_back(counted(facts.counters.nonfinite_pixels, "pixel") + " NaN or infinite",
+    if (properties.counters.nonfinite_pixels > 0)
+        lines.emplace_back(counted(properties.counters.nonfinite_pixels, "pixel") + " NaN or infinite",
                            ImVec4{1, 0.4f, 1, 1});
     if (contents.interface_ms > 0)
         lines.emplace_back(
@@ -125,16 +127,16 @@ void times(const Contents& contents) {
         for (const char* column : {"path", "time", "memory"}) ImGui::TableSetupColumn(column);
         ImGui::TableSetupColumn("last frames", ImGuiTableColumnFlags_WidthStretch);
         for (std::size_t i = 0; i < 2; ++i) {
-            const PathFacts& facts = shown.paths.at(i);
-            if (facts.name.empty()) continue;
+            const PathProperties& properties = shown.paths.at(i);
+            if (properties.name.empty()) continue;
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(facts.name.c_str());
+            ImGui::TextUnformatted(properties.name.c_str());
             ImGui::TableNextColumn();
-            ImGui::Text("%.2f ms", facts.ms);
+            ImGui::Text("%.2f ms", properties.ms);
             ImGui::TableNextColumn();
             ImGui::Text("%.1f MiB",
-                        static_cast<double>(facts.bytes.images + facts.bytes.buffers) / (1 << 20));
+                        static_cast<double>(properties.bytes.images + properties.bytes.buffers) / (1 << 20));
             ImGui::TableNextColumn();
             if (!contents.history || contents.history->at(i).total.empty()) continue;
             const std::deque<float>& total = contents.history->at(i).total;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/reference_thread.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/reference_frame.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"

@@ -15,12 +15,13 @@
 namespace diptych::viewer {
 namespace {
 
-void animationRows(InterfaceState& state, const SceneFacts& facts) {
-    if (facts.animations.empty()) return;
+void animationRows(InterfaceState& state, const SceneProperties& properties) {
+    if (properties.animations.empty()) return;
     ImGui::Separator();
     auto time = static_cast<float>(state.subject.settings.time);
     ImGui::SetNextItemWidth(17 * ImGui::GetFontSize());
-    if (ImGui::SliderFloat("time, s", &time, 0, static_cast<float>(std::max(facts.duration, 1e-3)), "%.3f"))
+    if (ImGui::SliderFloat("time, s", &time, 0, static_cast<float>(std::max(properties.duration, 1e-3)),
+                           "%.3f"))
         setOption(state, "time", fmt::format("{}", time));
     ImGui::SameLine();
     if (ImGui::SmallButton(state.playing ? "stop (K)" : "play (K)")) state.playing = !state.playing;
@@ -90,8 +91,8 @@ void sceneTab(InterfaceState& state, const Contents& contents) {
     if (ImGui::SmallButton("read again (R)")) state.requests.reload = true;
     ImGui::SameLine();
     if (ImGui::SmallButton("copy as diptych render (Y)")) state.requests.copy = renderCommand(state);
-    if (!contents.facts) return;
-    const SceneFacts& facts = *contents.facts;
+    if (!contents.properties) return;
+    const SceneProperties& properties = *contents.properties;
     ImGui::Separator();
     const std::string& camera = state.subject.settings.camera;
     ImGui::SetNextItemWidth(20 * ImGui::GetFontSize());
@@ -100,20 +101,20 @@ void sceneTab(InterfaceState& state, const Contents& contents) {
                                                                           : camera.c_str())) {
         if (ImGui::Selectable("the scene's first, or the default view", camera.empty()))
             state.requests.camera = "";
-        for (std::size_t i = 0; i < facts.cameras.size(); ++i)
-            if (ImGui::Selectable(fmt::format("{} {}", i, facts.cameras[i]).c_str(),
+        for (std::size_t i = 0; i < properties.cameras.size(); ++i)
+            if (ImGui::Selectable(fmt::format("{} {}", i, properties.cameras[i]).c_str(),
                                   camera == std::to_string(i)))
                 state.requests.camera = std::to_string(i);
         ImGui::EndCombo();
     }
-    animationRows(state, facts);
+    animationRows(state, properties);
     lightRows(state, contents);
     ImGui::Separator();
     wrapped("environment: " + state.subject.settings.env);
     if (ImGui::CollapsingHeader("Notes", ImGuiTreeNodeFlags_DefaultOpen)) {
-        std::vector<std::string> notes = facts.notes;
+        std::vector<std::string> notes = properties.notes;
         if (contents.shown)
-            for (const PathFacts& path : contents.shown->paths)
+            for (const PathProperties& path : contents.shown->paths)
                 for (const std::string& note : path.notes)
                     if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
         for (const std::string& note : notes) wrapped(note);

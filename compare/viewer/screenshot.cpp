@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/screenshot.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/report/frame_files.h"
 #include "shared/frame/debug_modes.h"
 

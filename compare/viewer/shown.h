@@ -37,7 +37,7 @@ struct DifferencePanel {
 };
 
 // Times and memory of a path's last frames.
-struct PathFacts {
+struct PathProperties {
     std::string name;
     double ms = 0;  // of the whole frame; while moving, the sum of its passes
     std::vector<PassTime> passes;
@@ -62,10 +62,10 @@ struct Shown {
     std::vector<Light> lights;             // of the view, world
     std::vector<Requirements::Line> plan;  // modelled and omitted features
     Image depth;  // W x H x 1, m along the view direction, 0: background; empty while moving
-    std::array<PathFacts, 2> paths;  // deferred, forward+
-    double reference_done = 1;       // finished fraction of the left panel
-    std::string uncertainty_text;    // of a sampled reference
-    double made_in_ms = 0;           // from request to publication
+    std::array<PathProperties, 2> paths;  // deferred, forward+
+    double reference_done = 1;            // finished fraction of the left panel
+    std::string uncertainty_text;         // of a sampled reference
+    double made_in_ms = 0;                // from request to publication
 };
 
 // The verdict on both paths, or on both compared with the left panel's image.
@@ -82,7 +82,7 @@ struct Breakdown {
 };
 
 // Properties of the loaded scene.
-struct SceneFacts {
+struct SceneProperties {
     std::string scene;  // as on the command line
     std::string name;
     std::vector<std::string> cameras;  // names, may be empty

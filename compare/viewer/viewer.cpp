@@ -137,12 +137,12 @@ private:
         next.shown = drawing_.shown();
         next.judged = drawing_.judged();
         next.breakdown = drawing_.breakdown();
-        next.facts = drawing_.facts();
+        next.properties = drawing_.properties();
         next.status = drawing_.status();
         next.idle = drawing_.idle();
         const bool images = next.shown != contents_.shown;
         const bool news = images || next.judged != contents_.judged ||
-                          next.breakdown != contents_.breakdown || next.facts != contents_.facts ||
+                          next.breakdown != contents_.breakdown || next.properties != contents_.properties ||
                           next.status.doing != contents_.status.doing ||
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
                           next.status.error != contents_.status.error || next.idle != contents_.idle;
@@ -152,7 +152,7 @@ private:
             say("still: all is drawn");
         }
         contents_ = std::move(next);
-        if (contents_.facts) state_.loaded = contents_.facts->scene;
+        if (contents_.properties) state_.loaded = contents_.properties->scene;
         if (images) takeImages();
         if (const std::string saved = drawing_.saved(); !saved.empty()) tell(saved);
         return news;
@@ -381,7 +381,7 @@ private:
     }
 
     void nextCamera() {
-        const std::size_t count = contents_.facts ? contents_.facts->cameras.size() : 0;
+        const std::size_t count = contents_.properties ? contents_.properties->cameras.size() : 0;
         const std::string& now = state_.subject.settings.camera;
         std::size_t next = 0;
         if (now.empty() && count > 1)
@@ -392,7 +392,7 @@ private:
         change([&](Settings& s) { s.camera = words; });
         own_camera_ = "none taken yet";
         tell(count == 0 ? "the default view: this scene has no camera"
-                        : fmt::format("camera {} {}", next, contents_.facts->cameras[next]));
+                        : fmt::format("camera {} {}", next, contents_.properties->cameras[next]));
     }
 
     void worstPixel() {
@@ -431,7 +431,7 @@ private:
 
     void play() {
         if (!state_.playing) return;
-        const double duration = contents_.facts ? contents_.facts->duration : 0;
+        const double duration = contents_.properties ? contents_.properties->duration : 0;
         if (!(duration > 0)) {
             state_.playing = false;
             return;
@@ -457,7 +457,7 @@ private:
         const CanvasRect canvas = canvasNow();
         screen_.draw(state_, contents_, canvas, placesOf(canvas, state_));
         window_.setTitle(fmt::format("Diptych - {} - {}",
-                                     contents_.facts ? contents_.facts->name : state_.subject.scene,
+                                     contents_.properties ? contents_.properties->name : state_.subject.scene,
                                      debugMode(state_.look.channel()).name));
         if (contents_.shown) latencies_.seen(*contents_.shown, order_.number);
     }

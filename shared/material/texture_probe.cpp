@@ -255,8 +255,8 @@ TextureSampling probeTextures(Device& device, TexturePrecision precision) {
     return result;
 }
 
-std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling& sampling,
-                                     const TextureSampling& exact) {
+std::vector<DeviceProperty> textureProperties(const Device& device, const TextureSampling& sampling,
+                                              const TextureSampling& exact) {
     // Vulkan: weights have at least subTexelPrecisionBits, and sRGB keeps 8 bits, so half a code.
     const double share = std::exp2(-static_cast<double>(device.limits().subTexelPrecisionBits));
     const auto decode = [](const char* what, const TextureSampling& s) {
@@ -269,15 +269,16 @@ std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling
                 halfCode = (exactSrgb(code) - exactSrgb(code - 1)) / (2 * exactSrgb(code));
             }
         }
-        return DeviceFact{what, most <= 1e-3, false,
-                          fmt::format("error up to {:.2g} %, at code {}; Vulkan allows {:.2g} %", 100 * most,
-                                      worst, 100 * halfCode)};
+        return DeviceProperty{what, most <= 1e-3, false,
+                              fmt::format("error up to {:.2g} %, at code {}; Vulkan allows {:.2g} %",
+                                          100 * most, worst, 100 * halfCode)};
     };
     const auto filter = [&](const char* what, const FilterBound& bound) {
-        return DeviceFact{what, bound.rounding < 0.1 / 255, false,
-                          fmt::format("error up to {:.2g} of a code plus {:.2g} % of the texels' difference; "
-                                      "Vulkan allows {:.2g} %",
-                                      bound.rounding * 255, 100 * bound.weight, 100 * share)};
+        return DeviceProperty{
+            what, bound.rounding < 0.1 / 255, false,
+            fmt::format("error up to {:.2g} of a code plus {:.2g} % of the texels' difference; "
+                        "Vulkan allows {:.2g} %",
+                        bound.rounding * 255, 100 * bound.weight, 100 * share)};
     };
     return {decode("decodes sRGB to 0.1 %", sampling),
             filter("filters 8-bit texels without rounding", sampling.linear_filter),

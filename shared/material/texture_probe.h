@@ -63,8 +63,8 @@ std::vector<FilterSample> probeFilter(Device& device, bool srgb, const TexelDeco
 FilterBound boundOf(std::span<const FilterSample> samples);
 
 // For users, as Device::probe(): both precisions, and Vulkan's limits.
-std::vector<DeviceFact> textureFacts(const Device& device, const TextureSampling& sampling,
-                                     const TextureSampling& exact);
+std::vector<DeviceProperty> textureProperties(const Device& device, const TextureSampling& sampling,
+                                              const TextureSampling& exact);
 
 // Replaces every 8-bit texture of a colour slot by what the device decodes, as floats. A renderer that
 // decodes exactly then sees the device's values.

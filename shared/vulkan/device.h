@@ -92,7 +92,7 @@ public:
     std::vector<TargetRounding> probeRounding();
 
     // Results of both probes, as text for people.
-    std::vector<DeviceFact> probe();
+    std::vector<DeviceProperty> probe();
 
 private:
     struct State;

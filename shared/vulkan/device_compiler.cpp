@@ -96,10 +96,10 @@ struct DeviceCompiler::State {
 void DeviceCompiler::State::open(const DeviceInfo& chosen, const std::string& choice) {
     info = chosen;
     support = devices.at(static_cast<std::size_t>(chosen.index));
-    for (const DeviceFact& fact : info.facts)
-        if (fact.required && !fact.there && fact.what != memoryFact)
+    for (const DeviceProperty& property : info.properties)
+        if (property.required && !property.there && property.what != memoryProperty)
             throw std::runtime_error(
-                fmt::format("--compile-on {}: {} lacks {}", choice, info.name, fact.what));
+                fmt::format("--compile-on {}: {} lacks {}", choice, info.name, property.what));
     if (!support.hasExtension(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
         throw std::runtime_error(fmt::format(
             "--compile-on {}: {} does not report compiler statistics (VK_KHR_pipeline_executable_properties)",

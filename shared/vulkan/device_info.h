@@ -7,7 +7,7 @@
 namespace diptych {
 
 // One capability of a device.
-struct DeviceFact {
+struct DeviceProperty {
     std::string what;
     bool there = false;
     bool required = false;
@@ -19,7 +19,7 @@ struct DeviceInfo {
     std::string name, driver;  // "Mesa 22.3.6 (LLVM 15.0.6)"
     std::string type;          // cpu, integrated, discrete, virtual, other
     std::string api_version;   // "1.3.230"
-    std::vector<DeviceFact> facts;
+    std::vector<DeviceProperty> properties;
 
     bool usable() const;  // all required capabilities are supported
 };

@@ -69,7 +69,7 @@ constexpr std::uint32_t frameDescriptors(VkDescriptorType kind) {
 }
 
 // Formats that only some Settings need.
-void noteFormats(std::vector<DeviceFact>& list, const DeviceSupport& device) {
+void noteFormats(std::vector<DeviceProperty>& list, const DeviceSupport& device) {
     const auto note = [&](const char* what, VkFormat format, std::uint32_t uses) {
         list.push_back({what, device.can(format, uses), false, nameOf(format)});
     };
@@ -81,12 +81,12 @@ void noteFormats(std::vector<DeviceFact>& list, const DeviceSupport& device) {
     note("4 samples per pixel, also in a G-buffer", VK_FORMAT_R32G32_UINT, format_use::multisampled);
 }
 
-std::vector<DeviceFact> facts(const DeviceSupport& device) {
+std::vector<DeviceProperty> propertiesOf(const DeviceSupport& device) {
     const VkPhysicalDeviceProperties& properties = device.properties();
     const VkPhysicalDeviceLimits& l = device.limits();
     const bool cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const auto range = [](std::uint32_t bytes) { return bytes == ~0u ? "4 GiB" : mebibytes(bytes); };
-    std::vector<DeviceFact> list;
+    std::vector<DeviceProperty> list;
     const auto need = [&](const char* what, bool there, std::string note = "") {
         list.push_back({what, there, true, std::move(note)});
     };
@@ -95,7 +95,7 @@ std::vector<DeviceFact> facts(const DeviceSupport& device) {
     };
 
     need("queue with graphics and compute", device.graphicsFamily().has_value());
-    need(memoryFact, device.memory().memoryTypeCount > 0);
+    need(memoryProperty, device.memory().memoryTypeCount > 0);
     enum Need { required, optional };
     const auto feature = [&](DeviceFeature name, Need how, const char* what) {
         list.push_back({what, device.has(name), how == required, ""});
@@ -104,12 +104,12 @@ std::vector<DeviceFact> facts(const DeviceSupport& device) {
         if (needed > least) need(what, there >= needed, fmt::format("{}, {} needed", there, needed));
     };
     using namespace binding_kind;
-#define DIPTYCH_FEATURE_FACT(version, name, how, what) feature(DeviceFeature::name, how, what);
-    DEVICE_FEATURES(DIPTYCH_FEATURE_FACT)
-#undef DIPTYCH_FEATURE_FACT
-#define DIPTYCH_LIMIT_FACT(name, least, needed, what) limit(l.name, least, needed, what);
-    DEVICE_LIMITS(DIPTYCH_LIMIT_FACT)
-#undef DIPTYCH_LIMIT_FACT
+#define DIPTYCH_FEATURE_PROPERTY(version, name, how, what) feature(DeviceFeature::name, how, what);
+    DEVICE_FEATURES(DIPTYCH_FEATURE_PROPERTY)
+#undef DIPTYCH_FEATURE_PROPERTY
+#define DIPTYCH_LIMIT_PROPERTY(name, least, needed, what) limit(l.name, least, needed, what);
+    DEVICE_LIMITS(DIPTYCH_LIMIT_PROPERTY)
+#undef DIPTYCH_LIMIT_PROPERTY
     need("subgroup arithmetic in compute shaders",
          device.hasSubgroups(VK_SHADER_STAGE_COMPUTE_BIT, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT));
     need("32-bit depth", device.can(VK_FORMAT_D32_SFLOAT, format_use::depth | format_use::sampled));
@@ -118,9 +118,9 @@ std::vector<DeviceFact> facts(const DeviceSupport& device) {
     note("storage buffers", true, "up to " + range(l.maxStorageBufferRange));
     note("uniform buffers", true, fmt::format("up to {} KiB", l.maxUniformBufferRange >> 10));
     note("texel buffers", true, fmt::format("up to {} texels", l.maxTexelBufferElements));
-#define DIPTYCH_EXTENSION_FACT(name, what) note(what, device.hasExtension(#name));
-    DEVICE_EXTENSIONS(DIPTYCH_EXTENSION_FACT)
-#undef DIPTYCH_EXTENSION_FACT
+#define DIPTYCH_EXTENSION_PROPERTY(name, what) note(what, device.hasExtension(#name));
+    DEVICE_EXTENSIONS(DIPTYCH_EXTENSION_PROPERTY)
+#undef DIPTYCH_EXTENSION_PROPERTY
     note("descriptor indexing", device.hasDescriptorIndexing(),
          "not used: every material has its own descriptor set");
     note("multiview", !cpu && device.hasMultiview(),
@@ -143,18 +143,18 @@ std::string lower(std::string text) {
 }
 
 void requireUsable(const DeviceInfo& info) {
-    for (const DeviceFact& fact : info.facts)
-        if (fact.required && !fact.there)
+    for (const DeviceProperty& property : info.properties)
+        if (property.required && !property.there)
             throw std::runtime_error(fmt::format("device {} ({}) lacks {}{}; choose another with --device",
-                                                 info.index, info.name, fact.what,
-                                                 fact.note.empty() ? "" : " (" + fact.note + ")"));
+                                                 info.index, info.name, property.what,
+                                                 property.note.empty() ? "" : " (" + property.note + ")"));
 }
 
 }  // namespace
 
 bool DeviceInfo::usable() const {
-    return std::all_of(facts.begin(), facts.end(),
-                       [](const DeviceFact& f) { return f.there || !f.required; });
+    return std::all_of(properties.begin(), properties.end(),
+                       [](const DeviceProperty& f) { return f.there || !f.required; });
 }
 
 DeviceInfo describe(const DeviceSupport& device, int index) {
@@ -166,7 +166,7 @@ DeviceInfo describe(const DeviceSupport& device, int index) {
     info.type = typeName(p.deviceType);
     info.api_version = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(p.apiVersion),
                                    VK_API_VERSION_MINOR(p.apiVersion), VK_API_VERSION_PATCH(p.apiVersion));
-    info.facts = facts(device);
+    info.properties = propertiesOf(device);
     return info;
 }
 

@@ -22,7 +22,7 @@ std::optional<std::size_t> findDevice(const std::vector<DeviceInfo>& infos, cons
 std::string listOf(const std::vector<DeviceInfo>& infos);  // "0: NAME, 1: ..."; "none"
 
 // Fact that drivers without hardware lack; DeviceCompiler does not need it.
-inline constexpr const char* memoryFact = "memory";
+inline constexpr const char* memoryProperty = "memory";
 
 // Enables exactly the supported features of DEVICE_FEATURES, and the extensions. `statistics`: also those
 // of compiled pipelines, which the device must support.

@@ -104,22 +104,22 @@ std::uint32_t Device::probeLoopLimit() {
         std::bit_cast<float>(drawProbe(*this, Shader::probe_loop_frag, VK_FORMAT_R32_SFLOAT, 1).front()));
 }
 
-std::vector<DeviceFact> Device::probe() {
-    std::vector<DeviceFact> facts;
+std::vector<DeviceProperty> Device::probe() {
+    std::vector<DeviceProperty> properties;
     const std::uint32_t limit = probeLoopLimit();
-    facts.push_back(
+    properties.push_back(
         {"loops of any length", limit >= 99'999, false,
          limit >= 99'999
              ? "tested to 100,000 iterations"
              : fmt::format("all loops of an invocation together end silently after {} iterations", limit)});
     for (const TargetRounding& target : probeRounding())
-        facts.push_back(
+        properties.push_back(
             {"rounds to nearest: " + target.format, target.kind == "to nearest", false,
              target.kind.empty()
                  ? "not supported as a colour attachment; only this probe needs it"
                  : fmt::format("{}, error up to {:.2f} of a step; the G-buffer rounds in the shader",
                                target.kind, target.steps)});
-    return facts;
+    return properties;
 }
 
 }  // namespace diptych

@@ -3,7 +3,7 @@
 // Interleaves frames of both paths: complete, without deformation (with the existing pose, like a frame
 // at rest), and deformation alone. Medians and spread. Complete minus deformation should equal the frame at
 // rest.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
 

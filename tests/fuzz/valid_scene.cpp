@@ -82,9 +82,9 @@ void requireSound(const Primitive& p, const Scene& scene) {
 
 // A factor as float32. 0 is also an infinite attenuation distance.
 bool isIn(AnimatedPart part, double value) {
-    const PartFacts facts = factsOf(part);
-    return (value >= double{static_cast<float>(facts.least)} &&
-            value <= double{static_cast<float>(facts.most)}) ||
+    const PartProperties properties = propertiesOf(part);
+    return (value >= double{static_cast<float>(properties.least)} &&
+            value <= double{static_cast<float>(properties.most)}) ||
            (part == AnimatedPart::attenuation_distance && value == 0);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sun's shadow on blended surfaces far in front of opaque ones. Fitted maps and requested pages must
 // cover the blended surfaces too.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "tests/image/shadow_scenes.h"
 
 #include <algorithm>

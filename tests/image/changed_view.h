@@ -2,7 +2,7 @@
 // The image of a path whose input a test has changed.
 #pragma once
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/scenes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Relighting from channels: a path's own channels reproduce its lit.
 #include "compare/render/channel_shading.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sun's clipmap. Both paths give the same bits whatever the pool contains, the image matches the
 // reference's rays, and cached pages equal redrawn ones.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/casters.h"

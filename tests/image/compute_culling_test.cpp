@@ -3,7 +3,7 @@
 // those of --cull off bit for bit, and about as many triangles are culled as on the host. culling_test.cpp
 // compares the host's culling with --cull off; gpu_choices_test.cpp compares a GPU's choices with the
 // device's own.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/computing_device.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Triangles that --cull removes change no bit of an image, and the device does not process them.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/placed_balls.h"

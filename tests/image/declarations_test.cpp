@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The declared uses of a frame's passes: the barriers that follow from them, stage by stage, and that no
 // declaration is redundant. The validation layer does not detect missing source stages.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/computing_device.h"
 

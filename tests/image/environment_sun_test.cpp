@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sun of an environment as a light, in both paths and the reference.
 #include "shared/scene/lights/environment_sun.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/square.h"

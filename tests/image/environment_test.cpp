@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Environment light in both paths: compared with closed forms, ambient light, and the reference.
 #include "compare/reference/environment.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/environment.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // --textures exact: both paths come close to the reference in mode scene, which decodes and filters texels
 // in double. A device's own decoding and filtering do not.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/reference_frame.h"
 #include "shared/scene/scene_view.h"
 #include "tests/image/square.h"

@@ -2,7 +2,7 @@
 // Explanations of differences with injected, known causes.
 #include "compare/explain/explain.h"
 #include "compare/explain/lighting_components.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/image/channel_image.h"
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"

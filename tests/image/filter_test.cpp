@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Magnified, linearly filtered textures of both paths against the reference in mode scene, which filters
 // alike. A device may deviate by what a probe measures for the texels that a pixel mixes.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/reference_frame.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/scene_view.h"

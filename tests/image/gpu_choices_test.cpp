@@ -3,7 +3,7 @@
 // input sets, the light compute shader, stored depth, triangle culling, submission in bands. On a CPU
 // device the images equal the default's bit for bit. On a GPU these are the default choices; there, pixels
 // where fragment depth differs from stored depth are counted.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/samples.h"

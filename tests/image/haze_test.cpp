@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Haze in both paths: compared with each other and with the reference. It does not depend on the far plane
 // and changes no other channel.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/square.h"
 #include "tests/support/haze_builder.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/explain/lighting_components.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
 #include "tests/image/injected_faults.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Deferred lighting in fragment and compute shaders (--lighting) gives the same bits.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/lighting_tiles.h"
 #include "tests/image/shadow_scenes.h"

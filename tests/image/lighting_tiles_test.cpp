@@ -2,7 +2,7 @@
 // Deferred lighting by tiles (deferred/lighting_tiles.h): each tile of the image is listed once, by the
 // layers that its pixels have, and the image keeps its bits.
 #include "deferred/lighting_tiles.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/scenes.h"
 #include "tests/probe/kernel_frame.h"

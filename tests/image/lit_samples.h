@@ -2,7 +2,7 @@
 // lit of every sample of an image, before the resolve.
 #pragma once
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/vulkan/descriptors.h"
 #include "tests/image/probe_words.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shadows of point and spot lights: equal bits in both paths and with every assignment, comparison with
 // the reference's rays, and planes with known results.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/local_shadow_scenes.h"

@@ -2,7 +2,7 @@
 // Faults that would affect both paths alike. Every property, texture slot and use of texture coordinates
 // of a glTF material, cameras, and mirrored or rotated geometry: both paths and the reference match closed
 // forms. Light matches the reference in mode scene, which has its own materials, textures and camera.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/reference_frame.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/model/material_slots.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Animated scenes: both paths render the current pose. Bits are equal wherever it is computed and whatever
 // was rendered before, with every light assignment, shadows and haze. Positions match the reference's.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/motion/animation.h"
 #include "tests/image/scenes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The barriers of whole frames: they suffice for the passes' uses (hazards.h), and Vulkan gets them as
 // planned, with every source stage and access.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "tests/image/scenes.h"
 #include "tests/support/hazards.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Culling shadow casters changes no bit of a shadow map that is sampled.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/shadow_scenes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shadow filters of the sun other than PCF: equal bits in both paths, correct edge widths, and maps that
 // cover everything in view.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"

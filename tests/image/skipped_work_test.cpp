@@ -3,7 +3,7 @@
 // no bit of the image.
 #include "compare/experiment/prepared_pool.h"
 #include "compare/experiment/references.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/scene/load.h"
 #include "tests/image/changed_view.h"
 #include "tests/image/scenes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KHR_materials_transmission, _volume, _dispersion and _diffuse_transmission in both paths, compared with
 // closed forms, with the image of what is behind, and with each other.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/builtin/builder.h"
 #include "shared/scene/builtin/textures.h"

@@ -4,7 +4,7 @@
 #include "compare/experiment/two_devices.h"
 #include "compare/explain/device_shares.h"
 #include "compare/explain/explain.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/verdict/pair_reports.h"
 #include "tests/image/scenes.h"
 

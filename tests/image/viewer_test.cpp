@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The window's drawing thread produces the same results as the other commands, and it survives errors.
 #include "compare/explain/pixel_breakdown.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/image/channel_image.h"
 #include "compare/output/writers.h"
 #include "compare/render/renderer.h"

@@ -55,8 +55,9 @@ TEST(TextureProbe, SrgbCodesStayApart) {
     linear = srgb;
     linear[40] = srgb[41];
     EXPECT_EQ(ambiguousCodes(linear), 1u) << "the negative control: one code off by one";
-    for (const DeviceFact& fact : textureFacts(probeDevice(), sampling(), exactSampling()))
-        std::cout << fact.what << ": " << (fact.there ? "yes" : "no") << ", " << fact.note << "\n";
+    for (const DeviceProperty& property : textureProperties(probeDevice(), sampling(), exactSampling()))
+        std::cout << property.what << ": " << (property.there ? "yes" : "no") << ", " << property.note
+                  << "\n";
 }
 
 // The bound is valid at other positions of another image, and half of it is not: it is tight.

@@ -8,7 +8,7 @@
 namespace diptych {
 namespace {
 
-TEST(Command, DevicesListsFacts) {
+TEST(Command, DevicesListsProperties) {
     const Folder folder;
     const Ran ran = runTool(folder, "devices --json");
     EXPECT_EQ(ran.code, 0) << ran.err;

@@ -138,12 +138,12 @@ TEST(HiddenSupport, AProbeOfWhatADeviceLacksSaysNotSupported) {
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err, "");
     bool found = false;
-    const auto facts = nlohmann::json::parse(ran.out)["devices"][0]["facts"];
-    for (const auto& fact : facts)
-        if (fact["what"] == "rounds to nearest: R16G16_SNORM") {
+    const auto properties = nlohmann::json::parse(ran.out)["devices"][0]["facts"];
+    for (const auto& property : properties)
+        if (property["what"] == "rounds to nearest: R16G16_SNORM") {
             found = true;
-            EXPECT_EQ(fact["there"], false);
-            EXPECT_TRUE(fact["note"].get<std::string>().starts_with("not supported")) << fact["note"];
+            EXPECT_EQ(property["there"], false);
+            EXPECT_TRUE(property["note"].get<std::string>().starts_with("not supported")) << property["note"];
         }
     EXPECT_TRUE(found);
 }

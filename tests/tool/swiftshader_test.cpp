@@ -35,9 +35,10 @@ TEST_F(SwiftShader, IsTheDeviceAndSaysWhatItLacks) {
     EXPECT_EQ(ran.err, "") << "the driver complains of nothing that it was told";
     const auto device = nlohmann::json::parse(ran.out)["devices"][0];
     EXPECT_NE(device["name"].get<std::string>().find("SwiftShader"), std::string::npos);
-    for (const auto& fact : device["facts"]) {
-        const bool snorm = fact["what"] == "rounds to nearest: R16G16_SNORM";
-        EXPECT_TRUE(!snorm || fact["note"].get<std::string>().starts_with("not supported")) << fact["note"];
+    for (const auto& property : device["facts"]) {
+        const bool snorm = property["what"] == "rounds to nearest: R16G16_SNORM";
+        EXPECT_TRUE(!snorm || property["note"].get<std::string>().starts_with("not supported"))
+            << property["note"];
     }
 }
 

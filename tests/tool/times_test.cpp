@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Frames at several times on one device: shared data is uploaded and compiled once, and each frame has its
 // own pose.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
 #include "shared/vulkan/device.h"

@@ -128,7 +128,7 @@ private:
             fail(who, fmt::format("node {} has a matrix, which cannot be animated", target.object));
         claim(target, who);
         const OutputShape shape{
-            factsOf(target.part).width,
+            propertiesOf(target.part).width,
             target.part == AnimatedPart::weights || target.part == AnimatedPart::mesh_weights,
             target.part == AnimatedPart::rotation, pointer != nullptr};
         const auto known = place_.find({file.sampler, shape});
@@ -279,7 +279,7 @@ private:
         if (fresh && std::ranges::adjacent_find(keys.times) != keys.times.end())
             scene.notes.push_back(who + ": several keys at one time: the last one is used");
         if (isNodePart(target.part) || isMeshPart(target.part)) return;
-        const PartFacts facts = factsOf(target.part);
+        const PartProperties properties = propertiesOf(target.part);
         const std::size_t width = keys.width;
         const std::size_t stride = keys.interpolation == Interpolation::cubic_spline ? 3 * width : width;
         const std::size_t first = stride - width > 0 ? width : 0;  // tangents are unlimited
@@ -287,11 +287,11 @@ private:
             for (std::size_t i = k; i < k + width; ++i) {
                 const double x = keys.values[i];
                 const bool gap = target.part == AnimatedPart::ior && x > 0 && x < 1;
-                if (x >= facts.least && x <= facts.most && !gap) continue;
+                if (x >= properties.least && x <= properties.most && !gap) continue;
                 scene.notes.push_back(
                     gap ? fmt::format("{}: ior {:g} is not 0 or at least 1: 1 is used", who, x)
                         : fmt::format("{}: {:g} is outside {:g} to {:g}: the nearest value is used", who, x,
-                                      facts.least, facts.most));
+                                      properties.least, properties.most));
                 return;
             }
     }

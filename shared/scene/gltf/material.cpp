@@ -104,17 +104,17 @@ private:
              std::size_t slot = gpu::SLOT_COUNT) {
         // See readEmission().
         if (*p.part == AnimatedPart::emissive || *p.part == AnimatedPart::emissive_strength) return;
-        PartFacts facts = factsOf(*p.part);
+        PartProperties animated = propertiesOf(*p.part);
         std::vector<double> numbers =
             value.is_array() ? value.get<std::vector<double>>() : std::vector{value.get<double>()};
         if (*p.part == AnimatedPart::ior && numbers[0] != 0) {
-            facts.least = 1;
+            animated.least = 1;
             if (numbers[0] < 1)
                 scene_.notes.push_back(
                     fmt::format("{}: ior {} is not 0 or at least 1: 1 is used", who_, numbers[0]));
-            numbers[0] = std::max(numbers[0], facts.least);
+            numbers[0] = std::max(numbers[0], animated.least);
         }
-        for (double& x : numbers) x = bounded(what, x, facts.least, facts.most);
+        for (double& x : numbers) x = bounded(what, x, animated.least, animated.most);
         setPart(m_, parts_, *p.part, slot, numbers);
     }
 

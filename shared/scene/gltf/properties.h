@@ -112,7 +112,7 @@ constexpr Property animated(Property property, AnimatedPart part) {
     return property;
 }
 constexpr Property animated(std::string_view key, AnimatedPart part) {
-    const std::size_t width = factsOf(part).width;
+    const std::size_t width = propertiesOf(part).width;
     return animated(width == 1 ? number(key) : numbers(key, width), part);
 }
 // ---- the schema: what is read of glTF 2.0 ------------------------------------------------------------

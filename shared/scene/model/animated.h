@@ -27,14 +27,14 @@ inline constexpr double maxFilmThickness = 65504;
 // m: the least attenuation distance; 0 stands for infinity (Material).
 inline constexpr double minAttenuationDistance = 1e-12;
 
-struct PartFacts {
+struct PartProperties {
     // Components per key; for weights, per morph target.
     std::size_t width;
     double least = -std::numeric_limits<float>::max();  // valid range; values outside are clamped
     double most = std::numeric_limits<float>::max();
 };
 
-constexpr PartFacts factsOf(AnimatedPart part) {
+constexpr PartProperties propertiesOf(AnimatedPart part) {
     using glm::vec3, glm::vec4;
     constexpr double any = std::numeric_limits<float>::max();
     // rad or m: the least extent of a camera or light that float32 can divide by
@@ -70,11 +70,11 @@ constexpr PartFacts factsOf(AnimatedPart part) {
             return {1, thin, glm::pi<double>() - thin};
         case AnimatedPart::camera_near:  // an orthographic camera may have 0
             return {1, 0, any};
-#define DIPTYCH_FACTS(type, name, initially, least, most) \
-    case AnimatedPart::name:                              \
+#define DIPTYCH_PROPERTIES(type, name, initially, least, most) \
+    case AnimatedPart::name:                                   \
         return {sizeof(type) / sizeof(float), least, most};
-            MATERIAL_FACTORS(DIPTYCH_FACTS)
-#undef DIPTYCH_FACTS
+            MATERIAL_FACTORS(DIPTYCH_PROPERTIES)
+#undef DIPTYCH_PROPERTIES
         case AnimatedPart::emissive:
             return {3, 0, any};
         case AnimatedPart::specular_color:

@@ -10,9 +10,9 @@
 
 namespace diptych {
 
-// Sets one value of a material, in its valid range (factsOf()), with as many components as factsOf() says.
-// `slot`: of a texture transform. `parts`: of the material; values that Material stores combined are computed
-// from them. Ignores parts of other objects.
+// Sets one value of a material, in its valid range (propertiesOf()), with as many components as
+// propertiesOf() says. `slot`: of a texture transform. `parts`: of the material; values that Material stores
+// combined are computed from them. Ignores parts of other objects.
 void setPart(Material& material, MaterialParts& parts, AnimatedPart part, std::size_t slot,
              std::span<const double> value);
 

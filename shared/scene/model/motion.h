@@ -131,9 +131,9 @@ enum class AnimatedPart {
 };
 
 // Keyframes that several channels may share. A key has `width` values: 3 for translation (m) or scale, 4
-// for rotation, one per morph target for weights, otherwise as in factsOf(). Rotations are x, y, z, w and
-// of unit length, except that a cubic spline's are as in the file. A key of a cubic spline has in-tangent,
-// value and out-tangent, in this order.
+// for rotation, one per morph target for weights, otherwise as in propertiesOf(). Rotations are x, y, z, w
+// and of unit length, except that a cubic spline's are as in the file. A key of a cubic spline has
+// in-tangent, value and out-tangent, in this order.
 struct Keyframes {
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;   // s, >= 0, not decreasing, at least one; the last of equal times counts

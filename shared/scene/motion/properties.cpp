@@ -34,10 +34,10 @@ Values valuesAt(const Scene& scene, double seconds, const std::string& choice) {
                     &animation.keyframes[static_cast<std::size_t>(channel.keyframes)];
     Values values;
     for (const auto& [property, keyframes] : last) {
-        const PartFacts facts = factsOf(property.part);
+        const PartProperties properties = propertiesOf(property.part);
         std::vector<double>& result = values[property];
         for (const double x : sampled(*keyframes, property.part, seconds))
-            result.push_back(std::clamp(x, facts.least, facts.most));
+            result.push_back(std::clamp(x, properties.least, properties.most));
     }
     return values;
 }

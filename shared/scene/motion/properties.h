@@ -16,7 +16,7 @@ struct PropertyMotion {
 };
 
 // Under animationsOf(scene, choice). All play at once; if several target one property, the last one wins.
-// Values that a spline takes out of range (factsOf()) are clamped. A light's inner cone is at most its
+// Values that a spline takes out of range (propertiesOf()) are clamped. A light's inner cone is at most its
 // outer one. If the far plane is not beyond the near plane, a perspective camera gets none, an
 // orthographic one a far plane right behind the near plane.
 PropertyMotion propertiesAt(const Scene& scene, double seconds, const std::string& choice = {});

@@ -5,7 +5,7 @@
 #include "compare/audit/reduce.h"
 #include "compare/audit/report.h"
 #include "compare/audit/small_scene.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "compare/output/writers.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"

@@ -2,7 +2,7 @@
 #include "shared/frame/settings.h"
 #include "compare/explain/channel_lighting.h"
 #include "compare/explain/explain.h"
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 
 #include <gtest/gtest.h>
 

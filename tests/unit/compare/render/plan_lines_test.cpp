@@ -2,7 +2,7 @@
 // Lines of the plan that do not come from the scene's file.
 #include "compare/render/path_plan.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/scene/load.h"
 

@@ -2,7 +2,7 @@
 // The camera that keys and the mouse move.
 #include "compare/viewer/fly_camera.h"
 
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 #include "shared/scene/load.h"
 #include "shared/scene/scene_view.h"
 

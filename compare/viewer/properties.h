@@ -9,9 +9,9 @@
 namespace diptych::viewer {
 
 // `name`: the scene on the command line.
-SceneFacts factsOf(const Scene& scene, const std::string& name);
+SceneProperties propertiesOf(const Scene& scene, const std::string& name);
 
 // Updates the facts by a new Frame. `timed`: also its times.
-void takeFacts(const Frame& frame, bool timed, PathFacts& facts);
+void takeProperties(const Frame& frame, bool timed, PathProperties& properties);
 
 }  // namespace diptych::viewer

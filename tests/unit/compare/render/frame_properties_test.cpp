@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A Frame's metadata on its scene, camera and times, and on a reference's uncertainty.
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 
 #include "compare/metrics/channel.h"
 #include "compare/render/reference_frame.h"
@@ -13,7 +13,7 @@
 namespace diptych {
 namespace {
 
-TEST(FrameFacts, TheMedianIsTheMiddleOrHalfwayBetweenTheMiddleTwo) {
+TEST(FrameProperties, TheMedianIsTheMiddleOrHalfwayBetweenTheMiddleTwo) {
     const FrameTime odd = timeOf({9, 1, 4});
     EXPECT_EQ(odd.median, 4);
     EXPECT_EQ(odd.min, 1);
@@ -29,7 +29,7 @@ TEST(FrameFacts, TheMedianIsTheMiddleOrHalfwayBetweenTheMiddleTwo) {
     EXPECT_EQ(timeOf({}).median, 0);
 }
 
-TEST(FrameFacts, APixelWithOneComponentThatIsNoNumberOrInfiniteCountsOnce) {
+TEST(FrameProperties, APixelWithOneComponentThatIsNoNumberOrInfiniteCountsOnce) {
     constexpr float infinity = std::numeric_limits<float>::infinity(),
                     nan = std::numeric_limits<float>::quiet_NaN();
     Image image(3, 2, 3, 0.5f);
@@ -47,7 +47,7 @@ TEST(FrameFacts, APixelWithOneComponentThatIsNoNumberOrInfiniteCountsOnce) {
 }
 
 // Radiance clamped by a small format is reported, whether it becomes the largest number or infinity.
-TEST(FrameFacts, RadianceBeyondItsFormatIsSaid) {
+TEST(FrameProperties, RadianceBeyondItsFormatIsSaid) {
     Image image(3, 1, 3, 1.0f);
     EXPECT_FALSE(overflowText(image, LitFormat::fp16));
     image.pixel(1)[2] = 65504;
@@ -61,7 +61,7 @@ TEST(FrameFacts, RadianceBeyondItsFormatIsSaid) {
     EXPECT_NE(overflowText(image, LitFormat::b10g11r11).value_or("").find("1 pixel;"), std::string::npos);
 }
 
-TEST(FrameFacts, WhatIsNoNumberIsRepairedAndNamed) {
+TEST(FrameProperties, WhatIsNoNumberIsRepairedAndNamed) {
     constexpr float infinity = std::numeric_limits<float>::infinity(),
                     most = std::numeric_limits<float>::max();
     Image image(3, 2, 3, 0.5f);
@@ -84,7 +84,7 @@ TEST(FrameFacts, WhatIsNoNumberIsRepairedAndNamed) {
     EXPECT_EQ(frame.repaired.at(Channel::normals), (std::vector<std::uint32_t>{0, 1, 5, 7}));
 }
 
-TEST(FrameFacts, ACameraIsStatedInDegreesOrAsAHeight) {
+TEST(FrameProperties, ACameraIsStatedInDegreesOrAsAHeight) {
     View view;
     view.camera.name = "door";
     view.camera.world_from_camera =
@@ -112,7 +112,7 @@ TEST(FrameFacts, ACameraIsStatedInDegreesOrAsAHeight) {
     EXPECT_EQ(camera.ymag, 2.5);
 }
 
-TEST(FrameFacts, AViewIsAskedForByItsSettings) {
+TEST(FrameProperties, AViewIsAskedForByItsSettings) {
     Settings settings;
     settings.time = 1.5;
     settings.animation = "walk";
@@ -130,7 +130,7 @@ TEST(FrameFacts, AViewIsAskedForByItsSettings) {
     EXPECT_EQ(request.seed, 9u);
 }
 
-TEST(FrameFacts, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
+TEST(FrameProperties, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
     Scene scene;
     scene.name = "a.glb";
     scene.background = {0.25f, 0.5f, 0.75f};
@@ -157,7 +157,7 @@ TEST(FrameFacts, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
 
 // A floor under a sampled environment. The stated relative uncertainty covers 999 of 1000 pixels (nearest
 // rank): nearly all of these, not half of them.
-TEST(FrameFacts, AReferenceStatesTheUncertaintyOfNearlyAllPixels) {
+TEST(FrameProperties, AReferenceStatesTheUncertaintyOfNearlyAllPixels) {
     Scene scene = reference::floorScene();
     scene.environment = Environment{"sky", Image(8, 4, 3, 0.25f)};
     for (int c = 0; c < 3; ++c) scene.environment->radiance.at(3, 0, c) = 50;

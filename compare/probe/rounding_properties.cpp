@@ -21,7 +21,7 @@ constexpr std::uint32_t add_function = 9, multiply_function = 10, fma_function =
 
 }  // namespace
 
-std::vector<DeviceFact> roundingFacts(Device& device) {
+std::vector<DeviceProperty> roundingProperties(Device& device) {
     DeviceRows rows(device);
     const auto gives = [&](std::uint32_t function, const std::vector<float>& in, float expected) {
         return resultOf(rows, function, in) == expected;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/frames/frame_facts.h"
+#include "compare/frames/frame_properties.h"
 
 #include "shared/contract/surface_channels.h"
 #include "shared/frame/debug_modes.h"
