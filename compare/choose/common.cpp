@@ -28,7 +28,7 @@ public:
 
     CommonChoice run() {
         propose();
-        inEachScene(0, 0.5, "errors for all scenes", [&](std::size_t scene) { judgeIn(scene); });
+        inEachScene(0, 0.5, "errors for all scenes", [&](std::size_t scene) { evaluateIn(scene); });
         std::vector<std::size_t> fit;
         for (std::size_t i = 0; i < all().size(); ++i)
             if (worstMiss(i, false) <= 0) fit.push_back(i);
@@ -76,7 +76,7 @@ private:
                 paths.push_back(candidate.settings.path);
                 tiers[0].push_back(i);
             }
-            if (!candidate.isJudged()) continue;
+            if (!candidate.isEvaluated()) continue;
             if (!accurate || candidate[budget_.metric] < choice.candidates[*accurate][budget_.metric])
                 accurate = i;
             if (candidate.isFit() && i != choice.chosen) others.emplace_back(candidate.ms(), i);
@@ -120,12 +120,12 @@ private:
                              .scenes = std::vector<experiment::Row>(own_.size())});
     }
 
-    void judgeIn(std::size_t scene) {
+    void evaluateIn(std::size_t scene) {
         Evaluator* evaluator = nullptr;
         for (CommonCandidate& candidate : all()) {
             const Candidate* known = nullptr;
             for (const Candidate& own : own_[scene]->candidates)
-                if (own.isJudged() && withoutCamera(own.settings) == candidate.settings) known = &own;
+                if (own.isEvaluated() && withoutCamera(own.settings) == candidate.settings) known = &own;
             experiment::Row& in = candidate.scenes[scene];
             in.settings = candidate.settings;
             if (known) {
@@ -133,8 +133,8 @@ private:
                 continue;
             }
             if (!evaluator) evaluator = &evaluatorOf_(scene);
-            in.measured = evaluator->judge(candidate.settings);
-            ++found_.judged;
+            in.measured = evaluator->evaluate(candidate.settings);
+            ++found_.evaluated;
         }
     }
 

@@ -199,7 +199,7 @@ Table candidateTable(const ChoiceReport& report) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
         const Candidate& candidate = choice.candidates[i];
-        return std::tuple(i != choice.chosen, !candidate.race, !candidate.isJudged(), candidate.log_ms);
+        return std::tuple(i != choice.chosen, !candidate.race, !candidate.isEvaluated(), candidate.log_ms);
     });
     Table table;
     table.sortable = true;
@@ -266,7 +266,7 @@ std::string plotOf(const ChoiceReport& report, PlotPlace place) {
     std::vector<experiment::TimeError> points;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
         const Candidate& candidate = choice.candidates[i];
-        if (!candidate.isJudged() || candidate.timings == 0) continue;
+        if (!candidate.isEvaluated() || candidate.timings == 0) continue;
         const double ms = candidate.ms(), error = candidate[report.budget.metric];
         const bool raced = candidate.status == CandidateStatus::raced;
         if (raced) interval = "finalist, 99 % interval";

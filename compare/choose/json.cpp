@@ -31,7 +31,7 @@ void addOutcome(Json& json, const Report& report) {
     json["nearest"] = orNull(choice.nearest);
     json["ties"] = choice.ties;
     json["sure"] = choice.significant;
-    json["judged"] = choice.judged;
+    json["judged"] = choice.evaluated;
     json["frames_timed"] = choice.timings;
     json["seconds"] = report.seconds;
 }

@@ -214,7 +214,7 @@ std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded
     const bool fits = other.has_value();
     for (std::size_t i = 0; i < choice.candidates.size() && !fits; ++i)
         if (const Candidate& candidate = choice.candidates[i];
-            candidate.isJudged() && candidate.settings.path != chosen_path &&
+            candidate.isEvaluated() && candidate.settings.path != chosen_path &&
             (!other || candidate[report.budget.metric] < choice.candidates[*other][report.budget.metric]))
             other = i;
     if (!other) return {};  // --grid has candidates of one path only
@@ -247,7 +247,7 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
         experiment::drawReferenceFrames(loaded.renderer, truth, {camera}, question_.image, drawing, false);
     experiment::SceneEvaluator evaluator(loaded.renderer, references, question_.budget.metric, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
-    const double error = evaluator.judge(chosen.settings)[question_.budget.metric];
+    const double error = evaluator.evaluate(chosen.settings)[question_.budget.metric];
     const double most = report.budget.error ? *report.budget.error : 1.5 * chosen[report.budget.metric];
     return {page::cameraTitle(references.frames.front()), error, error <= most};
 }

@@ -20,7 +20,7 @@ constexpr std::size_t triedTogether = 3, mostInVain = 6;
 // Predictions sum noisy effects: candidates predicted worse than needed by these factors are still tried.
 constexpr double timeSlack = 1.2, budgetSlack = 1.1;
 // Slower candidates, relative to the best, are not judged after their two frames.
-constexpr double worthJudging = 1.05;
+constexpr double worthEvaluating = 1.05;
 // Table rows slower than a fitting one by this factor are not judged.
 constexpr double hopeless = 1.5;
 // Smaller gains in log time do not count as improvements.
@@ -53,7 +53,7 @@ public:
             for (const auto& [path, first] : firsts_) improve(path);
         }
         for (Candidate& each : all_)
-            each.status = !each.isJudged()                     ? CandidateStatus::slower
+            each.status = !each.isEvaluated()                  ? CandidateStatus::slower
                           : missOf(each.measured, budget_) > 0 ? CandidateStatus::misses
                           : missBy(each) > 0                   ? CandidateStatus::too_slow
                                                                : CandidateStatus::fits;
@@ -73,10 +73,10 @@ private:
     void say(double done, std::string_view what) const {
         if (options_.progress) options_.progress(done, what);
     }
-    void judge(std::size_t i) {
-        if (all_[i].isJudged()) return;
-        all_[i].measured = evaluator_.judge(all_[i].settings);
-        ++found_.judged;
+    void evaluate(std::size_t i) {
+        if (all_[i].isEvaluated()) return;
+        all_[i].measured = evaluator_.evaluate(all_[i].settings);
+        ++found_.evaluated;
     }
     // Times two frames per candidate, in an order and its reverse. A candidate with known time, if any,
     // goes between them as the anchor. Times are relative to it, which cancels a drift of the device's
@@ -119,25 +119,25 @@ private:
             for (const std::size_t i : together) {
                 const bool is_first = firsts_.emplace(all_[i].settings.path, i).second;
                 if (!is_first && budget_.isForSpeed() && all_[i].ms() > hopeless * leastFitting()) continue;
-                judge(i);
+                evaluate(i);
             }
         }
         // If nothing fits yet, judge slow candidates as well.
-        for (std::size_t i = 0; i < all_.size() && !std::isfinite(leastFitting()); ++i) judge(i);
+        for (std::size_t i = 0; i < all_.size() && !std::isfinite(leastFitting()); ++i) evaluate(i);
     }
     double leastFitting() const {
         double least = std::numeric_limits<double>::infinity();
         for (const Candidate& each : all_)
-            if (each.isJudged() && missOf(each.measured, budget_) <= 0) least = std::min(least, each.ms());
+            if (each.isEvaluated() && missOf(each.measured, budget_) <= 0) least = std::min(least, each.ms());
         return least;
     }
 
     Effect measured(std::size_t i) const {
         // A row that was not judged borrows its first candidate's error: it is too slow anyway.
         const Candidate& candidate = all_[i];
-        const Candidate& judged =
-            candidate.isJudged() ? candidate : all_[firsts_.at(candidate.settings.path)];
-        return {candidate.log_ms, judged[budget_.metric], judged[Measure::memory]};
+        const Candidate& evaluated =
+            candidate.isEvaluated() ? candidate : all_[firsts_.at(candidate.settings.path)];
+        return {candidate.log_ms, evaluated[budget_.metric], evaluated[Measure::memory]};
     }
     void learnChanges() {
         const auto add = [&](const Change& change, std::optional<Effect> effect) {
@@ -163,7 +163,7 @@ private:
     }
     // Derives an unknown effect from two candidates that differ in this change.
     void learnFrom(std::size_t from, std::size_t to) {
-        if (!all_[from].isJudged() || !all_[to].isJudged() || all_[to].timings == 0) return;
+        if (!all_[from].isEvaluated() || !all_[to].isEvaluated() || all_[to].timings == 0) return;
         for (auto& [change, effect] : effects_)
             if (!effect && change.path == all_[to].settings.path &&
                 all_[to].settings.valueOf(change.option) == change.value)
@@ -181,7 +181,7 @@ private:
     // Less is better: the miss of the budget, then the objective.
     std::tuple<double, double, double> rank(std::size_t i) const {
         const Candidate& candidate = all_[i];
-        if (!candidate.isJudged()) return {std::numeric_limits<double>::infinity(), 0, 0};
+        if (!candidate.isEvaluated()) return {std::numeric_limits<double>::infinity(), 0, 0};
         if (const double miss = missBy(candidate); miss > 0) return {miss, 0, 0};
         const double error = candidate[budget_.metric];
         if (budget_.isForSpeed()) return {0, candidate.log_ms, error};
@@ -280,8 +280,8 @@ private:
         if (times_first) time(tried, best);
         std::vector<std::size_t> left;
         for (const std::size_t i : tried) {
-            if (times_first && all_[i].ms() > worthJudging * all_[best].ms()) continue;
-            judge(i);
+            if (times_first && all_[i].ms() > worthEvaluating * all_[best].ms()) continue;
+            evaluate(i);
             const double error_miss = missOf(all_[i].measured, budget_);
             if (miss > 0 ? error_miss < miss : error_miss <= 0) left.push_back(i);
         }
@@ -333,7 +333,7 @@ private:
 
     void findNearest() {
         for (std::size_t i = 0; i < all_.size(); ++i)
-            if (all_[i].isJudged() && (!found_.nearest || missBy(all_[i]) < missBy(all_[*found_.nearest])))
+            if (all_[i].isEvaluated() && (!found_.nearest || missBy(all_[i]) < missBy(all_[*found_.nearest])))
                 found_.nearest = i;
         if (found_.nearest) found_.ms = all_[*found_.nearest].ms();
     }

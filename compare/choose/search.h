@@ -87,7 +87,7 @@ struct Candidate : experiment::Row {
     std::optional<TimeRatio> race{};
     StatusName statusName() const { return statusNames[static_cast<std::size_t>(status)]; }
     double ms() const;  // NaN without timings
-    bool isJudged() const { return measured.has(Measure::memory); }
+    bool isEvaluated() const { return measured.has(Measure::memory); }
     bool isFit() const { return status == CandidateStatus::fits || status == CandidateStatus::raced; }
 };
 
@@ -97,7 +97,7 @@ double missOf(const Measures& measured, const Budget& budget);
 // The result of a choice for one scene or of a joint choice.
 struct Outcome : Race {
     std::optional<std::size_t> nearest;  // if nothing fits
-    std::size_t judged = 0, timings = 0;
+    std::size_t evaluated = 0, timings = 0;
     std::optional<std::size_t> shown() const { return chosen ? chosen : nearest; }
 };
 

@@ -32,7 +32,7 @@ void describeCompare(CLI::App& app, CompareLine& options) {
     addCompared(app, options, "report folder (diptych-report)");
     addShard(app, options, "diptych-report");
     addSince(app, options);
-    addJudged(app, options);
+    addEvaluated(app, options);
     addOutput(app, options);
     acceptUnread(app, {"--debug", "--heat"});
     app.get_option("--path")->description("path that --update-baseline writes (the file's own)");
@@ -121,8 +121,8 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     const std::unique_ptr<Device> other = againstDevice(options);
     say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
     KeptReferences kept(folder, true);
-    RenderOptions render = judgedOptions(renderOptions(options), settings, isTraced(settings, baseline),
-                                         other != nullptr, options.twice);
+    RenderOptions render = evaluatedOptions(renderOptions(options), settings, isTraced(settings, baseline),
+                                            other != nullptr, options.twice);
     render.keep = kept.opener();
     const std::string& name = options.scenes.front();
     const Stage drawn_stage = Stage(progress, name).part(0, experiment::sharesOf(render).drawn);
@@ -222,7 +222,7 @@ void addCompared(CLI::App& app, CompareLine& options, const char* out) {
     addReport(app, options);
 }
 
-void addJudged(CLI::App& app, CompareLine& options) {
+void addEvaluated(CLI::App& app, CompareLine& options) {
     app.option_defaults()->group(output_group);
     app.add_flag("--update-baseline", options.update_baseline,
                  "replace the --baseline FILE.exr; the old one stays as FILE.exr.old");

@@ -31,7 +31,7 @@ struct CompareLine : ShardedGroup,
 
 // Options after those of the scene: first up to the files of a report, then the rest. `out`: help of --out.
 void addCompared(CLI::App& app, CompareLine& options, const char* out);
-void addJudged(CLI::App& app, CompareLine& options);
+void addEvaluated(CLI::App& app, CompareLine& options);
 void resolveCompare(CompareLine& options);
 
 int runPixel(const CompareLine& options);  // --pixel

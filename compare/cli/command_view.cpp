@@ -34,7 +34,7 @@ void describeView(CLI::App& app, ViewLine& options) {
     addScene(app, options, one_scene_help);
     addSides(app, options);
     addCompared(app, options, "folder for the files that the key P writes (the current one)");
-    addJudged(app, options);
+    addEvaluated(app, options);
     app.option_defaults()->group("View");
     addOption(app, "--report", options.report, "DIR",
               "open a report of compare at the worst pixel of its first failing channel; --debug selects "

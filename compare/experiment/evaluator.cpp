@@ -25,20 +25,20 @@ FrameErrors SceneEvaluator::errorsOf(std::size_t camera, const Image& lit) {
     reference::Key key;
     key.addAll(lit.data);
     const std::pair image(camera, key.value());
-    if (const auto known = judged_.find(image); known != judged_.end()) return known->second;
+    if (const auto known = evaluated_.find(image); known != evaluated_.end()) return known->second;
     FrameErrors errors = references_.errors[camera]->forMetric(metricIndex(), lit);
-    if (errors.pixels.empty()) judged_.emplace(image, errors);
+    if (errors.pixels.empty()) evaluated_.emplace(image, errors);
     return errors;
 }
 
-Measures SceneEvaluator::judge(const Settings& settings) {
+Measures SceneEvaluator::evaluate(const Settings& settings) {
     ErrorsOfCameras errors;
-    Measures judged;
-    judged[Measure::memory] = 0;
+    Measures evaluated;
+    evaluated[Measure::memory] = 0;
     const auto add = [&](std::size_t camera, const Image& lit, const FrameBytes& bytes) {
         errors.add(errorsOf(camera, lit));
-        judged[Measure::memory] =
-            std::max(judged[Measure::memory], static_cast<double>(bytes.images + bytes.buffers));
+        evaluated[Measure::memory] =
+            std::max(evaluated[Measure::memory], static_cast<double>(bytes.images + bytes.buffers));
     };
     RenderOptions drawing = litOptions(options_, false);
     drawing.runs = 0;
@@ -55,8 +55,8 @@ Measures SceneEvaluator::judge(const Settings& settings) {
             add(camera, frame.channels.at(Channel::lit), frame.bytes);
         }
     }
-    judged[metric_] = errors.errors()[metricIndex()];
-    return judged;
+    evaluated[metric_] = errors.errors()[metricIndex()];
+    return evaluated;
 }
 
 // One camera after the other, because their Frames may not fit together.

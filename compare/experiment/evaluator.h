@@ -23,7 +23,7 @@ public:
     Evaluator& operator=(const Evaluator&) = delete;
     virtual ~Evaluator() = default;
     // Error and bytes, which do not change from run to run.
-    virtual Measures judge(const Settings& settings) = 0;
+    virtual Measures evaluate(const Settings& settings) = 0;
     // Renders frames[order[i]] for each i; returns the times, ms.
     virtual std::vector<double> time(std::span<const Settings> frames,
                                      std::span<const std::size_t> order) = 0;
@@ -40,12 +40,12 @@ public:
                    const RenderOptions& options)
         : renderer_(renderer), references_(references), metric_(metric), options_(options), pool_(renderer) {}
 
-    Measures judge(const Settings& settings) override;
+    Measures evaluate(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     // Drops the prepared frames, which own images.
     void release() {
         pool_.clear();
-        judged_.clear();
+        evaluated_.clear();
     }
     std::vector<PassTime> profile(const Settings& settings) override;
 
@@ -61,7 +61,7 @@ private:
     RenderOptions options_;
     PreparedPool pool_;
     // Key: camera, image hash. Only FLIP: the other metrics store every pixel.
-    std::map<std::pair<std::size_t, std::uint64_t>, FrameErrors> judged_;
+    std::map<std::pair<std::size_t, std::uint64_t>, FrameErrors> evaluated_;
 };
 
 }  // namespace diptych::experiment

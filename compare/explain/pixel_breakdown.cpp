@@ -148,8 +148,8 @@ private:
                                          pair_.cpu ? 0 : gpuUlps) > 0;
             step.tolerance = toleranceOf(mode);
             step.explained = encodingExplains(mode, pair_, pixel_);
-            const bool judged = ruleFor(query_.rules, mode.name) == nullptr && !isInformative(mode, pair_);
-            step.beyond = !(step.difference <= step.tolerance.max) || (judged && step.explained == false);
+            const bool evaluated = ruleFor(query_.rules, mode.name) == nullptr && !isInformative(mode, pair_);
+            step.beyond = !(step.difference <= step.tolerance.max) || (evaluated && step.explained == false);
         } else {
             const Settings& lacking = images[0] ? query_.test : query_.baseline;
             step.tolerance.because = notMadeBecause(lacking, mode);
@@ -204,10 +204,10 @@ private:
             PixelTerm{.kind = kind, .values = values, .uncertainty = uncertainty});
         const double apart = largest(values[1] - values[0]);
         if (apart > 0) term.difference = apart / std::max(largest(values[0]), lit_floor_);
-        const bool judged = kind != PixelTerm::Kind::sum && kind != PixelTerm::Kind::residual;
+        const bool evaluated = kind != PixelTerm::Kind::sum && kind != PixelTerm::Kind::residual;
         const double rounding =
             pair_.cpu ? 0 : gpuUlps * 0x1p-23 * std::max(largest(values[0]), largest(values[1]));
-        term.differs = judged && !(apart <= rounding);
+        term.differs = evaluated && !(apart <= rounding);
         return term;
     }
 

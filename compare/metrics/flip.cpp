@@ -168,7 +168,7 @@ struct Beyond {
 };
 
 // Sets the errors of different pixels that FLIP cannot see. `looks`: as for flipErrorMap().
-void judgeUnseen(const FlipPair& pair, const std::vector<FlipLook>& looks, FlipResult& result) {
+void evaluateUnseen(const FlipPair& pair, const std::vector<FlipLook>& looks, FlipResult& result) {
     const Beyond beyond(looks);
     const float most = looks.empty() ? 1 : std::numeric_limits<float>::max();
     const auto isUnseen = [&](const float* r, const float* t) {
@@ -217,7 +217,7 @@ FlipResult ldrFlip(const ImageRows& reference, const ImageRows& test, const Flip
     FlipResult result;
     const FlipPair pair = inspect(reference, test, result);
     flipErrorMap(pair, FlipFilters(options.pixels_per_degree), {}, result.error);
-    judgeUnseen(pair, {}, result);
+    evaluateUnseen(pair, {}, result);
     pool(pair, options.covered, result);
     return result;
 }
@@ -251,7 +251,7 @@ struct HdrFlipAgainst::State {
             pair.holes.size() - static_cast<std::size_t>(std::ranges::count(pair.holes, Hole::none));
         flipErrorMap(pair, filters, looks, result.error,
                      kept && holes == result.nonfinite_reference ? &*kept : nullptr);
-        judgeUnseen(pair, looks, result);
+        evaluateUnseen(pair, looks, result);
         return pair;
     }
 

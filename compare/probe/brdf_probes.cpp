@@ -150,7 +150,7 @@ Probe reciprocityProbe() {
         out[0] = lobeSequence(in[0], n, v, l);
         out[1] = lobeSequence(in[0], n, l, v);
     });
-    p.judge = [allowance = p.allowance](const float* in, const float* out, Tally& tally) {
+    p.evaluate = [allowance = p.allowance](const float* in, const float* out, Tally& tally) {
         double allowed[2];
         allowance(in, allowed);
         tally.value(tally.first_row, 1, out[1], double{out[0]}, allowed[0] + allowed[1],
@@ -212,7 +212,7 @@ Probe energyProbe() {
     follow(p, []<class N>(const N* in, N* out) {
         out[0] = lobeSequence(in[0], vecAt(in + 1), vecAt(in + 4), vecAt(in + 7));
     });
-    p.judge = [allowance = p.allowance](const float* in, const float* out, Tally& tally) {
+    p.evaluate = [allowance = p.allowance](const float* in, const float* out, Tally& tally) {
         double got = 0, expected = 0, allowed = 0;
         for (std::size_t k = 0; k < energy_line; ++k) {
             const float* row = in + k * 10;

@@ -96,7 +96,7 @@ Probe octahedralProbe(std::uint32_t bits) {
         const N l = root(sumOf(x2 * x2, y2 * y2, z * z));
         out[2] = x2 / l, out[3] = y2 / l, out[4] = z / l;
     });
-    p.judge = [bits](const float* in, const float* out, Tally& tally) {
+    p.evaluate = [bits](const float* in, const float* out, Tally& tally) {
         const Vec<double> n = exactVec(in);
         const std::array<double, 2> place = octahedralPlace(n);
         const double top = topOfCoordinate(bits);
@@ -283,7 +283,7 @@ void makeSurface(Random& random, std::uint32_t id_bits, float* in) {
     in[22] = static_cast<float>(random.bits() % (1u << id_bits));
 }
 
-void judgeSurface(const Layout& layout, const float* in, const float* out, Tally& tally) {
+void evaluateSurface(const Layout& layout, const float* in, const float* out, Tally& tally) {
     const std::size_t row = tally.first_row;
     const bool full = layout.encoding == gpu::GBUFFER_full;
     const auto field = [&](std::size_t i, double allowed, double step) {
@@ -341,8 +341,8 @@ Probe layoutProbe(const Layout& layout) {
                   {gpu::FEATURE_dielectric_specular, 1},
                   {gpu::FEATURE_captured, 1}};
     p.make = [layout](Random& random, std::size_t, float* in) { makeSurface(random, layout.ids, in); };
-    p.judge = [layout](const float* in, const float* out, Tally& tally) {
-        judgeSurface(layout, in, out, tally);
+    p.evaluate = [layout](const float* in, const float* out, Tally& tally) {
+        evaluateSurface(layout, in, out, tally);
     };
     return p;
 }

@@ -276,7 +276,7 @@ Probe anyMomentsProbe(const char* name, std::uint32_t shadows) {
         in[8] = shadows == gpu::SHADOWS_EVSM4 ? -in[8] : in[8];
         in[10] = static_cast<float>(random.ends(0, 1));
     };
-    p.judge = [](const float*, const float* out, Tally& tally) {
+    p.evaluate = [](const float*, const float* out, Tally& tally) {
         tally.value(tally.first_row, 0, out[0], std::clamp(double{out[0]}, 0.0, 1.0), 0, 1);
     };
     return p;

@@ -156,7 +156,7 @@ void makeFroxel(Random& random, std::size_t row, float* in) {
     in[7] = pixel(in[3]), in[8] = pixel(in[4]);
 }
 
-void judgeFroxels(const float* lines, const float* outs, Tally& tally) {
+void evaluateFroxels(const float* lines, const float* outs, Tally& tally) {
     for (std::size_t k = 0; k < 256; ++k) {
         const float *in = lines + 9 * k, *out = outs + 5 * k;
         const std::size_t row = tally.first_row + k;
@@ -200,7 +200,7 @@ Probe froxelProbe() {
     p.unit = "slices";
     p.features = {{gpu::FEATURE_light_lists, gpu::LISTS_CLUSTERED}};
     p.make = makeFroxel;
-    p.judge = judgeFroxels;
+    p.evaluate = evaluateFroxels;
     return p;
 }
 

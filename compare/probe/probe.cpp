@@ -28,7 +28,7 @@ std::vector<float> inputsOf(const Probe& probe, std::size_t first, std::size_t r
 
 namespace {
 
-void judgeRow(const Probe& probe, std::size_t row, const float* in, const float* out, Tally& tally) {
+void evaluateRow(const Probe& probe, std::size_t row, const float* in, const float* out, Tally& tally) {
     std::array<double, widest> expected{}, allowed{};
     probe.definition(in, expected.data());
     probe.allowance(in, allowed.data());
@@ -42,7 +42,7 @@ void judgeRow(const Probe& probe, std::size_t row, const float* in, const float*
     }
 }
 
-void judgeOrder(const Probe& probe, std::size_t row, const float* out, Tally& tally) {
+void evaluateOrder(const Probe& probe, std::size_t row, const float* out, Tally& tally) {
     for (std::size_t i = 1; i < probe.line; ++i) {
         const float before = out[(i - 1) * probe.outs], after = out[i * probe.outs];
         if ((static_cast<double>(after) - static_cast<double>(before)) * probe.monotone < 0)
@@ -52,19 +52,19 @@ void judgeOrder(const Probe& probe, std::size_t row, const float* out, Tally& ta
 
 }  // namespace
 
-Tally judged(const Probe& probe, std::size_t first, const std::vector<float>& in,
-             const std::vector<float>& out) {
+Tally evaluated(const Probe& probe, std::size_t first, const std::vector<float>& in,
+                const std::vector<float>& out) {
     Tally tally;
     const std::size_t rows = in.size() / probe.ins;
     for (std::size_t i = 0; i + probe.line <= rows; i += probe.line) {
         const float *from = &in[i * probe.ins], *to = &out[i * probe.outs];
         tally.first_row = first + i;
-        if (probe.judge)
-            probe.judge(from, to, tally);
+        if (probe.evaluate)
+            probe.evaluate(from, to, tally);
         else
             for (std::size_t k = 0; k < probe.line; ++k)
-                judgeRow(probe, first + i + k, from + k * probe.ins, to + k * probe.outs, tally);
-        if (probe.monotone != 0) judgeOrder(probe, first + i, to, tally);
+                evaluateRow(probe, first + i + k, from + k * probe.ins, to + k * probe.outs, tally);
+        if (probe.monotone != 0) evaluateOrder(probe, first + i, to, tally);
     }
     return tally;
 }

@@ -48,7 +48,7 @@ struct Probe {
     // The unit of an output's error; empty: the ULP of the expected value.
     std::function<double(const float* in, std::size_t output, double expected)> step{};
     // Judges a line of rows, instead of definition and allowance.
-    std::function<void(const float* in, const float* out, Tally&)> judge{};
+    std::function<void(const float* in, const float* out, Tally&)> evaluate{};
 
     // Along a line, output 0 only grows (1) or only falls (-1); 0: not checked.
     int monotone = 0;
@@ -84,7 +84,7 @@ float onLine(std::size_t row, std::size_t line, double from, double to);
 std::vector<float> inputsOf(const Probe& probe, std::size_t first, std::size_t rows);
 
 // Judges complete lines of results.
-Tally judged(const Probe& probe, std::size_t first, const std::vector<float>& in,
-             const std::vector<float>& out);
+Tally evaluated(const Probe& probe, std::size_t first, const std::vector<float>& in,
+                const std::vector<float>& out);
 
 }  // namespace diptych::probe

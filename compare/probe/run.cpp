@@ -66,7 +66,7 @@ Result runProbe(DeviceRows& device, const Probe& probe, std::size_t most_rows) {
         each([&](std::size_t from, std::size_t n) {
             const std::vector<float> a(at(in, from * probe.ins), at(in, (from + n) * probe.ins));
             const std::vector<float> b(at(out, from * probe.outs), at(out, (from + n) * probe.outs));
-            const Tally part = judged(probe, first + from, a, b);
+            const Tally part = evaluated(probe, first + from, a, b);
             const std::lock_guard lock(mutex);
             all.add(part);
         });

@@ -131,7 +131,7 @@ CompiledPath compilePath(Device& device, DeviceCompiler& compiler, SharedResourc
     addUnlitCycles(compiler, frame, path.pipelines);
     path.features = featureCosts(compiler, frame, path.pipelines);
     std::ranges::move(planned(compiler, captures, true), std::back_inserter(path.pipelines));
-    judge(path);
+    evaluate(path);
     return path;
 }
 
@@ -145,7 +145,7 @@ std::string describe(const Variant& variant) {
     return fmt::format("{}", fmt::join(on, " "));
 }
 
-void judge(CompiledPath& path) {
+void evaluate(CompiledPath& path) {
     for (const PlannedPipeline& pipeline : path.pipelines) {
         const auto line = [&](const std::string& what) {
             return fmt::format("{}, {}: {} {}{}", nameOf(path.path), pipeline.pass, pipeline.name, what,

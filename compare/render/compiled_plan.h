@@ -46,7 +46,7 @@ std::vector<CompiledPath> compilePaths(Device& device, DeviceCompiler& compiler,
                                        const std::vector<Settings>& settings);
 
 // Fills errors and warnings.
-void judge(CompiledPath& path);
+void evaluate(CompiledPath& path);
 
 // The enabled features of the variant.
 std::string describe(const Variant& variant);

@@ -53,9 +53,9 @@ double captureBytes(const Settings& settings, const RenderOptions& options, bool
 // The reference's double-precision sums and its other outputs; `keptReference` of them stay in memory.
 constexpr double keptReference = 60;
 double referenceBytes(const Settings& settings, const RenderOptions& options) {
-    constexpr double lit = 190, surfaces = 110, judged = 190;
+    constexpr double lit = 190, surfaces = 110, evaluated = 190;
     return lit + (settings.reference_mode == ReferenceMode::surface ? surfaces : 0) +
-           (options.environment_errors ? judged : 0);
+           (options.environment_errors ? evaluated : 0);
 }
 
 // Code of one path on a CPU device: a constant, and more for each channel and for materials, which share

@@ -38,11 +38,11 @@ struct EarlierReport {
     std::map<std::string, double> noise;  // by scene and channel: twice the largest of any frame
 };
 
-constexpr std::pair<const char*, double IndexChannel::*> judged[] = {{"max", &IndexChannel::max},
-                                                                     {"mean", &IndexChannel::mean},
-                                                                     {"rmse", &IndexChannel::rmse},
-                                                                     {"p99", &IndexChannel::p99},
-                                                                     {"p999", &IndexChannel::p999}};
+constexpr std::pair<const char*, double IndexChannel::*> evaluated[] = {{"max", &IndexChannel::max},
+                                                                        {"mean", &IndexChannel::mean},
+                                                                        {"rmse", &IndexChannel::rmse},
+                                                                        {"p99", &IndexChannel::p99},
+                                                                        {"p999", &IndexChannel::p999}};
 
 // Large members of a report that are not needed here; skipping them keeps reports of thousands readable.
 bool isLeftOut(const std::string& key) {
@@ -69,7 +69,7 @@ void addComparison(EarlierReport& report, std::map<std::string, int>& again, con
         const std::string verdict = channel.textOr("verdict", "");
         if (verdict != "pass" && verdict != "fail") continue;
         auto& metrics = earlier.channels[channel.textOr("name", "")];
-        for (const auto& [name, member] : judged) metrics[name] = metricIn(channel, name);
+        for (const auto& [name, member] : evaluated) metrics[name] = metricIn(channel, name);
     }
 }
 
@@ -107,7 +107,7 @@ std::vector<MovedMetric> movedSince(const Earlier& earlier, const EarlierReport&
         if (then == earlier.channels.end()) continue;
         const auto noise = report.noise.find(earlier.scene + "\n" + channel.name);
         const double most = channel.noise + (noise == report.noise.end() ? 0 : noise->second);
-        for (const auto& [name, member] : judged) {
+        for (const auto& [name, member] : evaluated) {
             const double from = then->second.at(name), to = channel.*member;
             if (std::abs(to - from) > most) moved.push_back({channel.name, name, from, to, most});
         }

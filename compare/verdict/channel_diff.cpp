@@ -25,7 +25,7 @@ bool isBeyondItsBits(const ChannelDiff& channel) {
            channel.stats.max <= channel.tolerance.max;
 }
 
-// The criterion of the derived tolerance. `beyond`: as from judgePaths().
+// The criterion of the derived tolerance. `beyond`: as from evaluatePaths().
 Criterion criterionOf(const ChannelDiff& channel, std::optional<std::uint64_t> beyond,
                       const Measurement& measurement) {
     if (const auto& pixels = channel.unexplained_pixels)
@@ -196,7 +196,7 @@ std::string outsideDomain(const DebugMode& mode, const Image& image, const Cover
 
 // Finds the tolerance between two paths, or a path and a reference, and how much of it a channel uses.
 // Returns the number of covered pixels whose certainErrors() exceed it; empty without these.
-std::optional<std::uint64_t> judgePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
+std::optional<std::uint64_t> evaluatePaths(ChannelDiff& channel, const FramePair& pair, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     channel.tolerance = derivedTolerance(mode, pair);
     const double noise = allowNoise && !pair.cpu ? noiseOf(pair, mode.channel) : 0;
@@ -220,7 +220,7 @@ std::optional<std::uint64_t> judgePaths(ChannelDiff& channel, const FramePair& p
 }
 
 // Compares by the derived tolerance.
-void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measurement, bool allowNoise) {
+void evaluate(ChannelDiff& channel, const FramePair& pair, const Measurement& measurement, bool allowNoise) {
     const DebugMode& mode = *channel.mode;
     std::optional<std::uint64_t> beyond;
     if (isInformative(mode, pair)) {
@@ -229,7 +229,7 @@ void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measu
         channel.device_use = deviceUse(mode, pair);
         channel.tolerance = deviceTolerance(mode, pair, *channel.device_use);
     } else {
-        beyond = judgePaths(channel, pair, allowNoise);
+        beyond = evaluatePaths(channel, pair, allowNoise);
     }
     if (!isInformative(mode, pair)) {
         channel.criterion = criterionOf(channel, beyond, measurement);
@@ -247,7 +247,7 @@ void judge(ChannelDiff& channel, const FramePair& pair, const Measurement& measu
 }
 
 // Compares by a rule of the user.
-void judge(ChannelDiff& channel, const Rule& rule, const Measurement& measurement) {
+void evaluate(ChannelDiff& channel, const Rule& rule, const Measurement& measurement) {
     const Decision decision = decide(rule, measurement);
     channel.tolerance = {boundOn(rule.fail, "max").value_or(std::numeric_limits<double>::infinity()),
                          rule.because};
@@ -299,8 +299,8 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
     const Rule* const rule = ruleFor(rules, mode.name);
     // A rule on `granted` applies in addition to the derived tolerance.
     const bool derived = !rule || boundsOnly(rule->fail, "granted");
-    if (derived) judge(channel, pair, measurement, allowNoise);
-    if (rule && channel.reason.empty()) judge(channel, *rule, measurement);
+    if (derived) evaluate(channel, pair, measurement, allowNoise);
+    if (rule && channel.reason.empty()) evaluate(channel, *rule, measurement);
     channel.verdict = !channel.reason.empty()                ? Verdict::fail
                       : derived && isInformative(mode, pair) ? Verdict::informative
                                                              : Verdict::pass;

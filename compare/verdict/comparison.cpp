@@ -118,12 +118,12 @@ std::vector<Channel> provingChannels(const Comparison& comparison, const FramePa
                                      std::span<const Rule> rules) {
     const Frame *deferred = pair.of(hasGBuffer), *forward = pair.of(shadesFragments);
     if (!deferred || !forward || !isPacked(deferred->settings)) return {};
-    const bool judgesLit = std::ranges::any_of(comparison.channels, [&](const ChannelDiff& channel) {
+    const bool evaluatesLit = std::ranges::any_of(comparison.channels, [&](const ChannelDiff& channel) {
         const DebugMode& mode = *channel.mode;
         return isLit(mode.channel) && isCompared(channel.verdict) && !isInformative(mode, pair) &&
                !ruleFor(rules, mode.name);
     });
-    if (!judgesLit) return {};
+    if (!evaluatesLit) return {};
     std::vector<Channel> modes;
     for (const Channel mode : lightingFields())
         if (deferred->channels.contains(mode) && forward->channels.contains(mode) &&
@@ -164,11 +164,11 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
 }
 
 // In mode scene: how many pixels of which channel are compared in which way; else empty.
-std::string waysOfJudging(const std::vector<ChannelDiff>& channels) {
-    std::vector<const ChannelDiff*> judged;
+std::string waysOfEvaluating(const std::vector<ChannelDiff>& channels) {
+    std::vector<const ChannelDiff*> evaluated;
     for (const ChannelDiff& channel : channels)
-        if (channel.footprints) judged.push_back(&channel);
-    if (judged.empty()) return {};
+        if (channel.footprints) evaluated.push_back(&channel);
+    if (evaluated.empty()) return {};
     const auto smooth = [](const ChannelDiff* channel) { return channel->footprints->smooth; };
     const auto of = [](const ChannelDiff* channel) {
         const Footprints& f = *channel->footprints;
@@ -177,13 +177,13 @@ std::string waysOfJudging(const std::vector<ChannelDiff>& channels) {
     return fmt::format(
         "--reference-mode scene: each pixel with smooth surroundings has its own bound (from {} to {}); the "
         "others together may have a mean FLIP of {}; each channel's section has its numbers",
-        of(*std::ranges::min_element(judged, {}, smooth)), of(*std::ranges::max_element(judged, {}, smooth)),
-        detailFlip);
+        of(*std::ranges::min_element(evaluated, {}, smooth)),
+        of(*std::ranges::max_element(evaluated, {}, smooth)), detailFlip);
 }
 
 // Channels for which a reference in mode scene gives hardly any pixel a bound of its own. Empty if there
 // are none.
-std::string looselyJudged(const std::vector<ChannelDiff>& channels) {
+std::string looselyEvaluated(const std::vector<ChannelDiff>& channels) {
     std::vector<std::string> words;
     for (const ChannelDiff& channel : channels)
         if (const auto& f = channel.footprints; f && f->closeShare() < leastCloseShare)
@@ -224,8 +224,8 @@ void addUnmatched(const DebugMode& mode, const Frame& having, const Frame& lacki
     const bool forward_only = mode.maker == MadeBy::forward_only && hasGBuffer(path),
                deferred_only = mode.maker == MadeBy::deferred_only && shadesFragments(path);
     if ((!forward_only && !deferred_only) || (rule && namesChannels(*rule)))
-        return judgeOneSided(std::string(mode.name), having.name, demands, comparison.failures,
-                             comparison.notes);
+        return evaluateOneSided(std::string(mode.name), having.name, demands, comparison.failures,
+                                comparison.notes);
     ChannelDiff& channel = comparison.channels.emplace_back();
     channel.mode = &mode;
     channel.tolerance = {0, forward_only
@@ -318,7 +318,7 @@ void readEmptiness(const FramePair& pair, double shown, const CompareOptions& op
         comparison.notes.push_back(emptiness);
     else if (!emptiness.empty())
         weaken(emptiness, "; --allow-empty accepts that");
-    if (const std::string loose = looselyJudged(comparison.channels); !loose.empty()) weaken(loose);
+    if (const std::string loose = looselyEvaluated(comparison.channels); !loose.empty()) weaken(loose);
     for (const ChannelDiff& channel : comparison.channels) {
         if (channel.granted.empty()) continue;
         const std::string text = grantedText(*channel.mode, channel.granted);
@@ -390,7 +390,7 @@ Comparison compareFrames(const Report& report, std::size_t baseline, std::size_t
         readCounters(*frame, comparison);
         readNoise(*frame, deviceOf(report, *frame).bitExact(), options.allow_noise, comparison);
     }
-    if (const std::string ways = waysOfJudging(comparison.channels); !ways.empty())
+    if (const std::string ways = waysOfEvaluating(comparison.channels); !ways.empty())
         comparison.notes.push_back(ways);
     for (const Rule* rule : idleRules(options.rules, names))
         comparison.notes.push_back(idleText(*rule, names));

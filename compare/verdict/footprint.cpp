@@ -50,9 +50,9 @@ double rangeAt(const DebugMode& mode, const Image& image, std::size_t i, int rad
     return range;
 }
 
-class Judge {
+class Evaluate {
 public:
-    Judge(const DebugMode& mode, const FramePair& pair)
+    Evaluate(const DebugMode& mode, const FramePair& pair)
         : mode_(mode),
           pair_(pair),
           baseline_(pair.baseline.channels.at(mode.channel)),
@@ -108,7 +108,7 @@ public:
         if (isGeometry(mode_) || mode_.kind == ChannelKind::id)
             result.edges = others;
         else if (others > 0)
-            judgeDetail(detailed, others, result);
+            evaluateDetail(detailed, others, result);
         return result;
     }
 
@@ -259,8 +259,8 @@ private:
     }
 
     // FLIP over the pixels with detail.
-    void judgeDetail(const std::vector<std::uint8_t>& detailed, std::uint64_t count,
-                     Footprints& result) const {
+    void evaluateDetail(const std::vector<std::uint8_t>& detailed, std::uint64_t count,
+                        Footprints& result) const {
         result.detailed = count;
         FlipOptions options;
         options.covered = detailed;
@@ -340,7 +340,7 @@ std::vector<Channel> footprintChannels() {
 std::optional<Footprints> footprints(const DebugMode& mode, const FramePair& pair) {
     if (!isPathAgainstReference(pair) || pair.reference().settings.reference_mode != ReferenceMode::scene)
         return {};
-    return Judge(mode, pair)();
+    return Evaluate(mode, pair)();
 }
 
 }  // namespace diptych

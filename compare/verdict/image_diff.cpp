@@ -233,7 +233,7 @@ Rule ruleOf(const ImageDiffOptions& options, const ImageChannelDiff& channel) {
 }
 
 // Decides by the values themselves, because metrics round, and some leave pixels out.
-void judgeEquality(ImageChannelDiff& channel, const ImageDiffOptions& options) {
+void evaluateEquality(ImageChannelDiff& channel, const ImageDiffOptions& options) {
     const std::uint64_t different = channel.measurement->plain().different;
     Decision& decision = channel.decision;
     if (different == 0) {
@@ -250,11 +250,11 @@ void judgeEquality(ImageChannelDiff& channel, const ImageDiffOptions& options) {
             "; judge it by a rule, by a --metric defined for it, or leave it out with --channels";
 }
 
-void judge(ImageChannelDiff& channel, const ImageDiffOptions& options) {
+void evaluate(ImageChannelDiff& channel, const ImageDiffOptions& options) {
     const Rule* rule = ruleFor(options.rules, channel.pair.name);
     channel.rule = rule ? *rule : ruleOf(options, channel);
     channel.decision = decide(channel.rule, *channel.measurement);
-    if (!rule && needsEquality(options, channel)) judgeEquality(channel, options);
+    if (!rule && needsEquality(options, channel)) evaluateEquality(channel, options);
 }
 
 // Handles a colour that only fails at pixels with an alpha of 0 in both images.
@@ -332,13 +332,13 @@ std::unique_ptr<ImageChannelDiff> diffOf(MatchedChannel pair, const ImageDiff& d
     return channel;
 }
 
-void judgeChannels(ImageDiff& diff, const ImageDiffOptions& options) {
+void evaluateChannels(ImageDiff& diff, const ImageDiffOptions& options) {
     constexpr double reading = 0.3;
     const auto all = static_cast<double>(diff.channels.size());
     double done = 0;
     for (auto& channel : diff.channels) {
         options.progress.at(reading + (1 - reading) * done++ / all, "measure " + channel->pair.name);
-        judge(*channel, options);
+        evaluate(*channel, options);
         findWorst(diff, *channel);
     }
     if (options.metric_given && options.rules.empty() &&
@@ -435,11 +435,11 @@ ImageDiff diffImages(const std::string& reference, const std::string& test, cons
     MatchedChannels matched = matchChannels(std::move(left), std::move(right), options.channels);
     diff.notes.insert(diff.notes.end(), matched.notes.begin(), matched.notes.end());
     for (const OneSidedChannel& channel : matched.one_sided)
-        judgeOneSided(channel.name, channel.owner, {options.rules, options.channels, options.strict},
-                      diff.failures, diff.notes);
+        evaluateOneSided(channel.name, channel.owner, {options.rules, options.channels, options.strict},
+                         diff.failures, diff.notes);
     for (MatchedChannel& pair : matched.channels)
         diff.channels.push_back(diffOf(std::move(pair), diff, options));
-    judgeChannels(diff, options);
+    evaluateChannels(diff, options);
     addNotes(diff, options);
     // A rule that names no channel by its whole name fails, because its author expects a match; a pattern
     // may match nothing.

@@ -20,8 +20,8 @@
 
 namespace diptych {
 
-RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> settings, bool traced,
-                            bool across, Twice twice) {
+RenderOptions evaluatedOptions(RenderOptions render, std::span<const Settings> settings, bool traced,
+                               bool across, Twice twice) {
     render.through_gbuffer = true;
     render.twice = twice;
     render.environment_errors = true;

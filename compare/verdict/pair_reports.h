@@ -17,8 +17,8 @@ namespace diptych {
 // Options to render a path for a verdict on the channels of `render`: also through its G-buffer's
 // encoding, a second time, and with further channels that decide which pixels count. `traced`: some
 // comparison is with a reference in mode scene; `across`: with another device.
-RenderOptions judgedOptions(RenderOptions render, std::span<const Settings> settings, bool traced,
-                            bool across = false, Twice twice = Twice::lit);
+RenderOptions evaluatedOptions(RenderOptions render, std::span<const Settings> settings, bool traced,
+                               bool across = false, Twice twice = Twice::lit);
 
 // Frames of one scene, camera and time, each found by its Settings' path, and inputs of their verdicts.
 struct ViewFrames {

@@ -297,8 +297,8 @@ std::string idleText(const Rule& rule, const std::vector<std::string>& channels)
                        isPattern(rule) ? "" : didYouMean(rule.channel, channels));
 }
 
-void judgeOneSided(const std::string& channel, const std::string& owner, const ChannelDemands& demands,
-                   std::vector<std::string>& failures, std::vector<std::string>& notes) {
+void evaluateOneSided(const std::string& channel, const std::string& owner, const ChannelDemands& demands,
+                      std::vector<std::string>& failures, std::vector<std::string>& notes) {
     const std::string alone = fmt::format("{} is in {} only", channel, owner);
     const Rule* rule = ruleFor(demands.rules, channel);
     if (rule && namesChannels(*rule))

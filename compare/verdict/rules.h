@@ -128,8 +128,8 @@ struct ChannelDemands {
     bool all = false;                  // --strict: every channel
 };
 // For a channel of `owner` alone, adds a line to `failures` if it is demanded on both sides, else to `notes`.
-void judgeOneSided(const std::string& channel, const std::string& owner, const ChannelDemands& demands,
-                   std::vector<std::string>& failures, std::vector<std::string>& notes);
+void evaluateOneSided(const std::string& channel, const std::string& owner, const ChannelDemands& demands,
+                      std::vector<std::string>& failures, std::vector<std::string>& notes);
 
 // Throws std::runtime_error, one line, if a rule names a single channel that is not known.
 void checkChannels(std::span<const Rule> rules, const std::vector<std::string>& known);

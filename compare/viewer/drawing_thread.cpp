@@ -53,8 +53,8 @@ std::string DrawingThread::saved() {
 std::shared_ptr<const Shown> DrawingThread::shown() const {
     return state_->mailbox.get(&Mailbox::shown);
 }
-std::shared_ptr<const Judged> DrawingThread::judged() const {
-    return state_->mailbox.get(&Mailbox::judged);
+std::shared_ptr<const EvaluatedPair> DrawingThread::evaluated() const {
+    return state_->mailbox.get(&Mailbox::evaluated);
 }
 std::shared_ptr<const Breakdown> DrawingThread::breakdown() const {
     return state_->mailbox.get(&Mailbox::breakdown);

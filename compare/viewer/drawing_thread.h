@@ -31,7 +31,7 @@ public:
     std::string saved();  // one line, once: files written by save(), or its error; empty: nothing new
 
     std::shared_ptr<const Shown> shown() const;  // nullptr before the first image
-    std::shared_ptr<const Judged> judged() const;
+    std::shared_ptr<const EvaluatedPair> evaluated() const;
     std::shared_ptr<const Breakdown> breakdown() const;
     std::shared_ptr<const SceneProperties> properties() const;  // of the loaded scene; nullptr: none
     Status status() const;

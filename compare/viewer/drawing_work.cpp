@@ -110,11 +110,11 @@ private:
     // Not while the reference uses all cores.
     bool wantsTimes() const { return timed_ != both_ && !drawsReference(); }
     // The baseline of the verdict: the reference once it is finished.
-    Against judgedAgainst() const {
+    Against evaluatedAgainst() const {
         return order_.look.against == Against::reference && left_.referenceDone() < 1 ? Against::paths
                                                                                       : order_.look.against;
     }
-    bool wantsVerdict() const { return judged_of_ != both_ || judged_against_ != judgedAgainst(); }
+    bool wantsVerdict() const { return evaluated_of_ != both_ || evaluated_against_ != evaluatedAgainst(); }
     bool wantsBreakdown() const { return order_.pixel && broken_down_ != std::pair(both_, *order_.pixel); }
 
     // One step; the most urgent first.
@@ -130,7 +130,7 @@ private:
         if (left_.isUpdateDue(order_)) return draw();
         if (wantsBreakdown()) return breakDown();
         if (wantsTimes()) return time();
-        if (wantsVerdict()) return judge();
+        if (wantsVerdict()) return evaluate();
     }
 
     // ---- progress and errors --------------------------------------------------------------------------
@@ -199,7 +199,7 @@ private:
             box_.status.error.clear();
         }
         drawn_.reset();
-        judged_of_.reset();
+        evaluated_of_.reset();
         paths_ = {};
     }
 
@@ -343,15 +343,15 @@ private:
     }
 
     // Both paths with every channel.
-    std::vector<Frame> judgedFrames(const std::array<Settings, 2>& settings) {
+    std::vector<Frame> evaluatedFrames(const std::array<Settings, 2>& settings) {
         RenderOptions render = channelOptions(everyChannel());
         render.requested = everyChannel();
-        render =
-            judgedOptions(std::move(render), settings,
-                          order_.subject.settings.reference_mode == ReferenceMode::scene, false, Twice::none);
+        render = evaluatedOptions(std::move(render), settings,
+                                  order_.subject.settings.reference_mode == ReferenceMode::scene, false,
+                                  Twice::none);
         std::vector<Frame> pair;
         for (std::size_t i = 0; i < 2; ++i) {
-            if (judged_of_ == both_ && drawn_ == both_ && has(everyChannel())) {
+            if (evaluated_of_ == both_ && drawn_ == both_ && has(everyChannel())) {
                 pair.push_back(*frames_.at(i));  // only the baseline changed
                 continue;
             }
@@ -362,7 +362,7 @@ private:
         return pair;
     }
 
-    Report judgedReport(std::vector<Frame> pair, Against against, const CompareOptions& compare) {
+    Report evaluatedReport(std::vector<Frame> pair, Against against, const CompareOptions& compare) {
         const ReportDevice here = reportDevice(*pair_.device());
         std::vector<ViewFrames> views(1);
         ViewFrames& view = views.front();
@@ -380,19 +380,19 @@ private:
         return makeReport(std::move(views), here, compare, std::move(earlier));
     }
 
-    void judge() {
+    void evaluate() {
         const std::array settings = fullSettings();
-        std::vector<Frame> pair = judgedFrames(settings);
-        auto next = std::make_shared<Judged>();
+        std::vector<Frame> pair = evaluatedFrames(settings);
+        auto next = std::make_shared<EvaluatedPair>();
         next->subject = both_;
         CompareOptions compare = options_.compare;
         compare.light_differs = lightDifferences(settings[0], settings[1]);
         compare.progress = Stage(comparing_, "verdict").part(0.8, 1);
         heed();
-        const Against against = judgedAgainst();
-        next->report = judgedReport(std::move(pair), against, compare);
-        judged_of_ = both_;
-        judged_against_ = against;
+        const Against against = evaluatedAgainst();
+        next->report = evaluatedReport(std::move(pair), against, compare);
+        evaluated_of_ = both_;
+        evaluated_against_ = against;
         // Every channel exists from now on.
         for (std::size_t i = 0; i < 2; ++i)
             for (const Frame& frame : next->report.frames)
@@ -403,7 +403,7 @@ private:
         takeProperties({frames_[0].get(), frames_[1].get()}, false);
         auto again = shownWithProperties();
         box_.publish([&] {
-            box_.judged = std::move(next);
+            box_.evaluated = std::move(next);
             box_.shown = std::move(again);
         });
     }
@@ -462,8 +462,8 @@ private:
     std::optional<Subject> drawn_;  // still and at full size
     std::vector<Channel> drawn_channels_;
     std::optional<std::uint64_t> shown_order_, failed_order_;
-    std::optional<Subject> timed_, judged_of_;
-    Against judged_against_ = Against::paths;
+    std::optional<Subject> timed_, evaluated_of_;
+    Against evaluated_against_ = Against::paths;
     std::optional<std::pair<Subject, PixelPlace>> broken_down_;
     std::array<PathProperties, 2> paths_;
     ImageCost cost_;                    // of moving images, once their pipelines exist

@@ -64,7 +64,7 @@ struct InterfaceState {
 // The results to show.
 struct Contents {
     std::shared_ptr<const Shown> shown;
-    std::shared_ptr<const Judged> judged;
+    std::shared_ptr<const EvaluatedPair> evaluated;
     std::shared_ptr<const Breakdown> breakdown;
     std::shared_ptr<const SceneProperties> properties;
     Status status;

@@ -31,7 +31,7 @@ struct Mailbox {
     bool waiting = false;  // the request is complete
     std::string saved;
     std::shared_ptr<const Shown> shown;
-    std::shared_ptr<const Judged> judged;
+    std::shared_ptr<const EvaluatedPair> evaluated;
     std::shared_ptr<const Breakdown> breakdown;
     std::shared_ptr<const SceneProperties> properties;
     Status status;

@@ -69,7 +69,7 @@ struct Shown {
 };
 
 // The verdict on both paths, or on both compared with the left panel's image.
-struct Judged {
+struct EvaluatedPair {
     Subject subject;
     Report report;
 };

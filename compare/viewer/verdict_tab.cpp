@@ -97,11 +97,11 @@ void comparisonTable(InterfaceState& state, const Report& report, const Comparis
 }  // namespace
 
 void verdictTab(InterfaceState& state, const Contents& contents) {
-    if (!contents.judged) {
+    if (!contents.evaluated) {
         wrapped("Both paths are compared, channel by channel, once the view stands still.", &faint);
         return;
     }
-    if (contents.judged->subject != ofBothPaths(state.subject))
+    if (contents.evaluated->subject != ofBothPaths(state.subject))
         wrapped("This is the verdict of the previous view; the new one is compared once it stands still.",
                 &faint);
     else
@@ -110,8 +110,8 @@ void verdictTab(InterfaceState& state, const Contents& contents) {
             "the reason.",
             &faint);
     std::size_t index = 0;
-    for (const Comparison& comparison : contents.judged->report.comparisons)
-        comparisonTable(state, contents.judged->report, comparison, index++);
+    for (const Comparison& comparison : contents.evaluated->report.comparisons)
+        comparisonTable(state, contents.evaluated->report, comparison, index++);
     if (ImGui::SmallButton("copy as diptych compare")) state.requests.copy = compareCommand(state);
 }
 

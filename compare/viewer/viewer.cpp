@@ -135,13 +135,13 @@ private:
     bool takeNews() {
         Contents next = contents_;
         next.shown = drawing_.shown();
-        next.judged = drawing_.judged();
+        next.evaluated = drawing_.evaluated();
         next.breakdown = drawing_.breakdown();
         next.properties = drawing_.properties();
         next.status = drawing_.status();
         next.idle = drawing_.idle();
         const bool images = next.shown != contents_.shown;
-        const bool news = images || next.judged != contents_.judged ||
+        const bool news = images || next.evaluated != contents_.evaluated ||
                           next.breakdown != contents_.breakdown || next.properties != contents_.properties ||
                           next.status.doing != contents_.status.doing ||
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
@@ -396,9 +396,9 @@ private:
     }
 
     void worstPixel() {
-        if (!contents_.judged || contents_.judged->subject != ofBothPaths(state_.subject))
+        if (!contents_.evaluated || contents_.evaluated->subject != ofBothPaths(state_.subject))
             return tell("no verdict for this view yet");
-        for (const Comparison& comparison : contents_.judged->report.comparisons)
+        for (const Comparison& comparison : contents_.evaluated->report.comparisons)
             for (const ChannelDiff& channel : comparison.channels)
                 if (channel.mode->channel == state_.look.channel() && channel.stats.worst_x >= 0)
                     return flyTo({channel.stats.worst_x, channel.stats.worst_y});

@@ -27,9 +27,9 @@ Settings byEnvironment() {
     return settings;
 }
 
-class JudgedEnvironment {
+class EvaluatedEnvironment {
 public:
-    explicit JudgedEnvironment(const Settings& settings) : settings_(settings) {
+    explicit EvaluatedEnvironment(const Settings& settings) : settings_(settings) {
         Settings truth = settings;
         truth.path = Path::reference;
         RenderOptions options;
@@ -77,33 +77,34 @@ bool fails(const Report& report, std::size_t comparison, Channel mode) {
     return false;
 }
 
-const JudgedEnvironment& lampJudged() {
-    static const JudgedEnvironment judged(byEnvironment());
-    return judged;
+const EvaluatedEnvironment& lampEvaluated() {
+    static const EvaluatedEnvironment evaluated(byEnvironment());
+    return evaluated;
 }
 
 TEST(EnvironmentReference, EveryWayToTakeItPassesByWhatItCosts) {
-    const JudgedEnvironment& judged = lampJudged();
+    const EvaluatedEnvironment& evaluated = lampEvaluated();
     for (const IblDiffuse diffuse : {IblDiffuse::sh, IblDiffuse::sh_windowed, IblDiffuse::map}) {
-        Settings settings = judged.settings();
+        Settings settings = evaluated.settings();
         settings.ibl_diffuse = diffuse;
-        EXPECT_EQ(failing(judged.verdict(judged.scene(), settings)), std::vector<std::string>{})
+        EXPECT_EQ(failing(evaluated.verdict(evaluated.scene(), settings)), std::vector<std::string>{})
             << nameOf(diffuse);
     }
-    Settings sampled = judged.settings();
+    Settings sampled = evaluated.settings();
     sampled.ibl = Ibl::sampled;
     for (const int samples : {64, 256}) {
         sampled.ibl_samples = samples;
-        EXPECT_EQ(failing(judged.verdict(judged.scene(), sampled)), std::vector<std::string>{}) << samples;
+        EXPECT_EQ(failing(evaluated.verdict(evaluated.scene(), sampled)), std::vector<std::string>{})
+            << samples;
     }
-    ASSERT_TRUE(judged.reference().hidden_light);
-    EXPECT_GT(judged.reference().hidden_light->p99, 0) << "spheres hide some of the sky from each other";
+    ASSERT_TRUE(evaluated.reference().hidden_light);
+    EXPECT_GT(evaluated.reference().hidden_light->p99, 0) << "spheres hide some of the sky from each other";
 }
 
 TEST(EnvironmentReference, AWrongRotationFails) {
-    Settings settings = lampJudged().settings();
+    Settings settings = lampEvaluated().settings();
     settings.env_rotation = 5;
-    const Report report = lampJudged().verdict(lampJudged().scene(), settings);
+    const Report report = lampEvaluated().verdict(lampEvaluated().scene(), settings);
     for (const std::size_t path : {0u, 1u})
         for (const Channel mode : {Channel::lit, Channel::lit_diffuse, Channel::lit_specular})
             EXPECT_TRUE(fails(report, path, mode)) << path << " " << debugMode(mode).name;
@@ -111,16 +112,16 @@ TEST(EnvironmentReference, AWrongRotationFails) {
 
 // One level of the maps is half an octave of alpha.
 TEST(EnvironmentReference, AMapOneLevelOffFails) {
-    Scene scene = lampJudged().scene();
+    Scene scene = lampEvaluated().scene();
     for (Material& m : scene.materials)
         m.roughness = static_cast<float>(std::min(1.0, double{m.roughness} * std::exp2(0.25)));
-    const Report report = lampJudged().verdict(scene, lampJudged().settings());
+    const Report report = lampEvaluated().verdict(scene, lampEvaluated().settings());
     for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, Channel::lit_specular)) << path;
 }
 
 TEST(EnvironmentReference, WithoutOneOverPiItFails) {
     const Report report =
-        lampJudged().verdict(lampJudged().scene(), lampJudged().settings(), [](Frame& frame) {
+        lampEvaluated().verdict(lampEvaluated().scene(), lampEvaluated().settings(), [](Frame& frame) {
             for (float& v : frame.channels.at(Channel::lit_diffuse).data) v *= std::numbers::pi_v<float>;
         });
     for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, Channel::lit_diffuse)) << path;
@@ -128,9 +129,9 @@ TEST(EnvironmentReference, WithoutOneOverPiItFails) {
 
 // A tenth exceeds the whole tolerance where the approximations are nearly exact.
 TEST(EnvironmentReference, ABrighterEnvironmentFails) {
-    Settings settings = lampJudged().settings();
+    Settings settings = lampEvaluated().settings();
     settings.ibl_intensity = 1.1f;
-    const Report report = lampJudged().verdict(lampJudged().scene(), settings);
+    const Report report = lampEvaluated().verdict(lampEvaluated().scene(), settings);
     for (const std::size_t path : {0u, 1u}) EXPECT_TRUE(fails(report, path, Channel::lit)) << path;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 // Minimum distance, in pixels, from the centre of a checked pixel to the edge of a texel or cell. Half a
 // pixel plus the rasterizer's grid of 1/256 and float rounding of coordinates.
-constexpr double judgedMargin = 0.51;
+constexpr double evaluatedMargin = 0.51;
 
 constexpr unsigned slotBit(gpu::uint slot) {
     return 1u << slot;
@@ -67,21 +67,21 @@ unsigned slotsOf(Channel mode, const Cell& cell) {
 
 // The pixel's position on the wall, and a bit mask of the slots whose texture shows a single texel there.
 // Nothing at a cell's edge.
-struct JudgedPixel {
+struct EvaluatedPixel {
     CellPlace place;
     unsigned slots = 0;
 
     bool shows(unsigned wanted) const { return (slots & wanted) == wanted; }
 };
-std::optional<JudgedPixel> judgedPixel(const std::vector<Cell>& cells, const CellCamera& camera, int x,
-                                       int y) {
+std::optional<EvaluatedPixel> evaluatedPixel(const std::vector<Cell>& cells, const CellCamera& camera, int x,
+                                             int y) {
     const glm::dvec2 centre(x + 0.5, y + 0.5);
-    JudgedPixel pixel{cellPlace(cells, camera, centre), ~0u};
+    EvaluatedPixel pixel{cellPlace(cells, camera, centre), ~0u};
     if (pixel.place.cell < 0) return {};
     const Cell& cell = cells[static_cast<std::size_t>(pixel.place.cell)];
     for (const glm::dvec2 side :
          {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
-        const CellPlace near = cellPlace(cells, camera, centre + side * judgedMargin);
+        const CellPlace near = cellPlace(cells, camera, centre + side * evaluatedMargin);
         if (near.cell != pixel.place.cell) return {};
         for (std::size_t slot = 0; slot < cell.textures.size(); ++slot)
             if (cell.textures[slot].image >= 0 &&
@@ -152,16 +152,16 @@ double movedBy(Channel mode, const std::vector<Cell>& cells, const CellCamera& c
     }
 }
 
-void judge(CheckedValues& judged, const float* got, const std::vector<double>& expected, double allowed,
-           const std::string& where) {
+void evaluate(CheckedValues& evaluated, const float* got, const std::vector<double>& expected, double allowed,
+              const std::string& where) {
     for (std::size_t c = 0; c < expected.size(); ++c) {
-        ++judged.values;
+        ++evaluated.values;
         const double error = std::abs(double{got[c]} - expected[c]);
         const double share = error == 0 ? 0 : error / std::max(allowed, 1e-12);
-        if (!(share <= 1)) ++judged.wrong;
-        if (share <= judged.worst) continue;
-        judged.worst = share;
-        judged.worst_at = fmt::format("{}, component {}: {}, not {}", where, c, got[c], expected[c]);
+        if (!(share <= 1)) ++evaluated.wrong;
+        if (share <= evaluated.worst) continue;
+        evaluated.worst = share;
+        evaluated.worst_at = fmt::format("{}, component {}: {}, not {}", where, c, got[c], expected[c]);
     }
 }
 
@@ -183,7 +183,7 @@ std::vector<double> valuesAt(const Frame& frame, Channel mode, int x, int y) {
 // with the same texels. A surface at another depth is off the wall's plane, which changes the lamp's light
 // by up to 2/3 per metre at 3 m distance. Nothing if there is no such neighbour in one direction.
 std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamera& camera,
-                                 const Frame& reference, Channel mode, const JudgedPixel& pixel, int x,
+                                 const Frame& reference, Channel mode, const EvaluatedPixel& pixel, int x,
                                  int y) {
     if (camera.tilt == glm::dvec2(0)) return 0.0;
     const Cell& cell = cells[static_cast<std::size_t>(pixel.place.cell)];
@@ -211,7 +211,7 @@ std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamer
 
 // Tolerance of a path's channel against the reference; nothing if it is not checked.
 std::optional<double> allowedBeside(const std::vector<Cell>& cells, const CellCamera& camera,
-                                    const Frame& reference, Channel mode, const JudgedPixel& pixel, int x,
+                                    const Frame& reference, Channel mode, const EvaluatedPixel& pixel, int x,
                                     int y) {
     const std::vector<double> expected = valuesAt(reference, mode, x, y);
     if (!isLit(mode)) return roundingOf(mode, expected) + movedBy(mode, cells, camera, x, y);
@@ -230,9 +230,9 @@ bool anyWrong(const ChannelChecks& judgement) {
 
 std::string describe(const ChannelChecks& judgement) {
     std::string text;
-    for (const auto& [mode, judged] : judgement)
+    for (const auto& [mode, evaluated] : judgement)
         text += fmt::format("{}: {} of {} wrong, worst {:.3g} of what is allowed, {}\n", debugMode(mode).name,
-                            judged.wrong, judged.values, judged.worst, judged.worst_at);
+                            evaluated.wrong, evaluated.values, evaluated.worst, evaluated.worst_at);
     return text;
 }
 
@@ -242,21 +242,21 @@ ChannelChecks againstClosedForm(const Frame& frame, const std::vector<Cell>& cel
     const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * camera.size.x + x); };
     for (int y = 0; y < camera.size.y; ++y)
         for (int x = 0; x < camera.size.x; ++x) {
-            const std::optional<JudgedPixel> pixel = judgedPixel(cells, camera, x, y);
+            const std::optional<EvaluatedPixel> pixel = evaluatedPixel(cells, camera, x, y);
             if (!pixel) continue;
             const Cell& cell = cells[static_cast<std::size_t>(pixel->place.cell)];
             if (!pixel->shows(slotsOf(Channel::material_id, cell))) continue;
             const auto values = cellValues(cell, pixel->place, decode);
             const std::string where = placeName(cells, pixel->place, x, y);
             if (!values) {
-                judge(judgement[Channel::material_id],
-                      frame.channels.at(Channel::material_id).pixel(at(x, y)), {-1}, 0, where);
+                evaluate(judgement[Channel::material_id],
+                         frame.channels.at(Channel::material_id).pixel(at(x, y)), {-1}, 0, where);
                 continue;
             }
             for (const auto& [mode, expected] : *values) {
                 if (!frame.channels.contains(mode) || !pixel->shows(slotsOf(mode, cell))) continue;
                 const double allowed = roundingOf(mode, expected) + movedBy(mode, cells, camera, x, y);
-                judge(judgement[mode], frame.channels.at(mode).pixel(at(x, y)), expected, allowed, where);
+                evaluate(judgement[mode], frame.channels.at(mode).pixel(at(x, y)), expected, allowed, where);
             }
         }
     return judgement;
@@ -268,7 +268,7 @@ ChannelChecks againstReference(const Frame& frame, const Frame& reference, const
     const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * camera.size.x + x); };
     for (int y = 0; y < camera.size.y; ++y)
         for (int x = 0; x < camera.size.x; ++x) {
-            const std::optional<JudgedPixel> pixel = judgedPixel(cells, camera, x, y);
+            const std::optional<EvaluatedPixel> pixel = evaluatedPixel(cells, camera, x, y);
             if (!pixel) continue;
             const Cell& cell = cells[static_cast<std::size_t>(pixel->place.cell)];
             const std::string where = placeName(cells, pixel->place, x, y);
@@ -276,8 +276,8 @@ ChannelChecks againstReference(const Frame& frame, const Frame& reference, const
                 if (!reference.channels.contains(mode) || !pixel->shows(slotsOf(mode, cell))) continue;
                 const auto allowed = allowedBeside(cells, camera, reference, mode, *pixel, x, y);
                 if (!allowed) continue;
-                judge(judgement[mode], image.pixel(at(x, y)), valuesAt(reference, mode, x, y), *allowed,
-                      where);
+                evaluate(judgement[mode], image.pixel(at(x, y)), valuesAt(reference, mode, x, y), *allowed,
+                         where);
             }
         }
     return judgement;

@@ -94,8 +94,8 @@ protected:
     static void expectRight(const std::string& who, const ChannelChecks& judgement, std::size_t channels) {
         EXPECT_FALSE(anyWrong(judgement)) << who << "\n" << describe(judgement);
         EXPECT_EQ(judgement.size(), channels) << who;
-        for (const auto& [mode, judged] : judgement)
-            EXPECT_GT(judged.values, 2000u) << who << ": " << debugMode(mode).name;
+        for (const auto& [mode, evaluated] : judgement)
+            EXPECT_GT(evaluated.values, 2000u) << who << ": " << debugMode(mode).name;
         if (std::getenv("DIPTYCH_JUDGEMENTS")) std::cout << who << "\n" << describe(judgement);
     }
 };
@@ -318,10 +318,10 @@ TEST(MaterialNegativeControl, EveryFaultIsSeen) {
         *std::ranges::find(cellCameras(), std::string("OrthographicLandscape"), &CellCamera::name);
     camera.size = {132, 72};
     camera.ambient = 0;
-    const auto judged = [&](const Scene& scene) {
+    const auto evaluated = [&](const Scene& scene) {
         return againstClosedForm(materialReference(scene, camera), fewMaterialCells(), camera, exactDecode());
     };
-    const ChannelChecks sound = judged(sceneOf(camera));
+    const ChannelChecks sound = evaluated(sceneOf(camera));
     EXPECT_FALSE(anyWrong(sound)) << describe(sound);
     for (const MaterialFault& fault : faults) {
         Scene scene = sceneOf(camera);
@@ -329,7 +329,7 @@ TEST(MaterialNegativeControl, EveryFaultIsSeen) {
         // Without lightmaps: a lit environment takes longest, and other channels show the same materials.
         if (fault.channel != Channel::lightmap)
             for (Material& m : scene.materials) m.lightmap_texture.texture = -1;
-        const ChannelChecks judgement = judged(scene);
+        const ChannelChecks judgement = evaluated(scene);
         EXPECT_GT(judgement.at(fault.channel).wrong, 3u) << fault.name << "\n" << describe(judgement);
     }
 }

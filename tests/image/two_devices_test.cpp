@@ -32,7 +32,7 @@ RenderOptions drawnOptions() {
     RenderOptions options;
     for (const DebugMode& mode : debugModes()) options.channels.push_back(mode.channel);
     options.runs = 0;
-    options = judgedOptions(options, std::vector<Settings>(1), false, true, Twice::none);
+    options = evaluatedOptions(options, std::vector<Settings>(1), false, true, Twice::none);
     return options;
 }
 

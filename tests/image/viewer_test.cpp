@@ -87,14 +87,14 @@ TEST(DrawingThread, ItsPanelsAreTheImagesOfBothPaths) {
         EXPECT_GT(shown->paths.at(i).ms, 0);
     }
     // There is also a verdict on every channel: both paths agree.
-    const auto judged = drawing.judged();
-    ASSERT_TRUE(judged);
-    EXPECT_TRUE(judged->report.passed());
+    const auto evaluated = drawing.evaluated();
+    ASSERT_TRUE(evaluated);
+    EXPECT_TRUE(evaluated->report.passed());
     // Without shaded_samples, which needs MSAA.
-    EXPECT_EQ(judged->report.comparisons.at(0).channels.size(), debugModes().size() - 1);
+    EXPECT_EQ(evaluated->report.comparisons.at(0).channels.size(), debugModes().size() - 1);
     EXPECT_FALSE(shown->plan.empty());
     // The drag pivot is known with the image: from depth, equal to the position channel.
-    const Image& position = judged->report.frames.at(0).channels.at(Channel::position);
+    const Image& position = evaluated->report.frames.at(0).channels.at(Channel::position);
     std::size_t seen = 0;
     for (int y = 0; y < position.height; y += 3)
         for (int x = 0; x < position.width; x += 3) {
@@ -124,8 +124,9 @@ TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
     const Frame reference = drawn(device, scene, referenceSettings(order.subject.settings), {Channel::lit});
     EXPECT_EQ(shown->panels[0].values.data, reference.channels.at(Channel::lit).data);
     // Both paths are compared with it and with each other.
-    ASSERT_TRUE(soon([&] { return drawing.judged() && drawing.judged()->report.comparisons.size() == 3; }));
-    EXPECT_TRUE(drawing.judged()->report.passed());
+    ASSERT_TRUE(
+        soon([&] { return drawing.evaluated() && drawing.evaluated()->report.comparisons.size() == 3; }));
+    EXPECT_TRUE(drawing.evaluated()->report.passed());
 }
 
 TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {

@@ -47,9 +47,9 @@ bool isCaught(std::string_view name, Fault fault) {
     const std::vector<float> in =
         inputsOf(probe, 0, std::min<std::size_t>(probe.rows, 4096) / probe.line * probe.line);
     std::vector<float> out = rows.run(probe, in);
-    EXPECT_TRUE(concluded(probe, judged(probe, 0, in, out)).passed) << name;
+    EXPECT_TRUE(concluded(probe, evaluated(probe, 0, in, out)).passed) << name;
     for (std::size_t i = 0; i * probe.ins < in.size(); ++i) fault(&out[i * probe.outs]);
-    return !concluded(probe, judged(probe, 0, in, out)).passed;
+    return !concluded(probe, evaluated(probe, 0, in, out)).passed;
 }
 
 TEST(DeviceProbesOnDevice, PlantedFaultsAreFound) {
@@ -105,10 +105,10 @@ TEST(DeviceProbesOnDevice, NoNumbersAndStepsBackAreFound) {
     DeviceRows rows(probeDevice());
     std::vector<float> out = rows.run(codes, in);
     std::swap(out[100], out[101]);
-    EXPECT_EQ(judged(codes, 0, in, out).backward, 1u);
+    EXPECT_EQ(evaluated(codes, 0, in, out).backward, 1u);
     out = rows.run(codes, in);
     out[7] = std::nextafter(out[7], 0.0f);
-    EXPECT_TRUE(concluded(codes, judged(codes, 0, in, out)).passed) << "a ULP less is in order";
+    EXPECT_TRUE(concluded(codes, evaluated(codes, 0, in, out)).passed) << "a ULP less is in order";
 }
 
 }  // namespace

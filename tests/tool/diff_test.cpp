@@ -104,7 +104,7 @@ TEST(DiffCommand, WithoutAToleranceOnlyEqualValuesPass) {
 }
 
 // FLIP and SSIM take negative values as 0, and see ids and vectors as light.
-TEST(DiffCommand, WhatIsNoLightIsNotJudgedByEyes) {
+TEST(DiffCommand, WhatIsNoLightIsNotEvaluatedByEyes) {
     const Folder folder;
     const Image light = noise(5);
     const auto write = [&](const char* name, const std::string& layer, const Image& data) {

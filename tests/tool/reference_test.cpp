@@ -366,7 +366,7 @@ TEST(ReferenceTool, TwoProgramsWithOneOutputBothFinish) {
 // ---- stored ------------------------------------------------------------------------------------------
 
 // A stored reference gives the same verdicts as a freshly rendered one.
-TEST(ReferenceTool, AStoredReferenceJudgesAsOneDrawnNow) {
+TEST(ReferenceTool, AStoredReferenceEvaluatesAsOneDrawnNow) {
     const Folder folder;
     const std::string drawing = "compare builtin:triangle --size 16x9 --runs 0 ";
     const Ran now = runTool(folder, drawing + "--baseline reference -o now");
@@ -411,7 +411,7 @@ TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
 
 // Light is compared as strictly with few channels, as in a report's command for one channel: FLIP alone
 // would pass this ambient light.
-TEST(ReferenceTool, FewerChannelsAreNotJudgedMoreLoosely) {
+TEST(ReferenceTool, FewerChannelsAreNotEvaluatedMoreLoosely) {
     const Folder folder;
     const std::string scene = "builtin:spheres --size 64x36 --runs 0 --shadows off ";
     ASSERT_EQ(runTool(folder, "render " + scene +

@@ -36,7 +36,7 @@ const std::string& shader(const std::string& name) {
     return sources().at("shaders/lib/" + name);
 }
 
-TEST(SurfaceFields, AllThatLightingReadsIsJudged) {
+TEST(SurfaceFields, AllThatLightingReadsIsEvaluated) {
     // Fields whose channel has another name.
     const std::map<std::string, std::string> names{{"normal", "normals"},
                                                    {"anisotropy_turn", "anisotropy_direction"}};

@@ -38,7 +38,7 @@ struct Outcome {
     bool right = false;
     double off = 0;      // chosen value relative to the best one
     double timings = 0;  // fraction of an exhaustive search's timings
-    std::size_t judged = 0;
+    std::size_t evaluated = 0;
 };
 
 constexpr double near = 1.05, frames_of_each = 6;
@@ -87,7 +87,7 @@ Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candida
     Outcome outcome;
     outcome.timings =
         static_cast<double>(choice.timings) / (frames_of_each * static_cast<double>(sweep.rows.size()));
-    outcome.judged = choice.judged;
+    outcome.evaluated = choice.evaluated;
     const std::optional<double> best = bestOf(sweep, budget);
     if (!choice.chosen) {
         // Correct if nothing fits, or if the fitting rows are too close to the limit.
@@ -138,7 +138,7 @@ std::vector<Budget> budgetsFor(const RecordedSweep& sweep) {
 void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
     if (const char* const wished = std::getenv("DIPTYCH_REPLAY_SEEDS")) seeds = std::stoull(wished);
     std::size_t cases = 0, right = 0;
-    double timings = 0, judged = 0;
+    double timings = 0, evaluated = 0;
     fmt::print("{:<28} {:>6} {:>14} {:>12} {:>12} {:>10}\n", "scene", "rows", "right", "timings", "worst",
                "judged");
     for (const RecordedSweep& sweep : recordedSweeps()) {
@@ -152,7 +152,7 @@ void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
                 good += outcome.right;
                 worst = std::max(worst, outcome.off);
                 share += outcome.timings;
-                images += static_cast<double>(outcome.judged);
+                images += static_cast<double>(outcome.evaluated);
                 if (!outcome.right && std::getenv("DIPTYCH_REPLAY_VERBOSE"))
                     fmt::print("  wrong: error {} ms {} bytes {} seed {}: off {:.3f} timings {:.1f} %\n",
                                budget.error.value_or(0), budget.ms.value_or(0), budget.bytes.value_or(0),
@@ -161,17 +161,17 @@ void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
         cases += tried;
         right += good;
         timings += share;
-        judged += images;
+        evaluated += images;
         const auto n = static_cast<double>(tried);
         fmt::print("{:<28} {:>6} {:>6} of {:>4} {:>10.1f} % {:>11.3f} {:>10.1f}\n", sweep.scene,
                    sweep.rows.size(), good, tried, 100 * share / n, worst, images / n);
     }
     const auto n = static_cast<double>(cases);
     fmt::print("{} of {} ({:.1f} %) within 5 %, {:.1f} % of a sweep's timings, {:.1f} judged\n", right, cases,
-               100 * static_cast<double>(right) / n, 100 * timings / n, judged / n);
+               100 * static_cast<double>(right) / n, 100 * timings / n, evaluated / n);
     EXPECT_GE(static_cast<double>(right), 0.95 * n);
     EXPECT_LE(timings / n, 0.10);
-    EXPECT_LE(judged / n, 35);
+    EXPECT_LE(evaluated / n, 35);
 }
 
 TEST(ChooseReplay, FindsWhatASweepOfEverythingFinds) {
@@ -186,10 +186,10 @@ TEST(ChooseReplay, FindsItUnderNoiseAndDrift) {
 class LawfulEvaluator final : public Evaluator {
 public:
     std::map<std::pair<std::string, std::string>, std::pair<double, double>> law;
-    std::size_t judged = 0;
+    std::size_t evaluated = 0;
 
-    Measures judge(const Settings& settings) override {
-        ++judged;
+    Measures evaluate(const Settings& settings) override {
+        ++evaluated;
         Measures measured;
         measured[Measure::flip] = of(settings).second;
         measured[Measure::memory] = 0;
@@ -235,8 +235,8 @@ TEST(ChooseSearch, CombinesChangesThatHelpAndLeavesOutWhatExceedsTheError) {
     const Choice choice = search(table, evaluator, options);
     ASSERT_TRUE(choice.chosen);
     EXPECT_NEAR(choice.ms, 100 * 0.8 * 0.9 * 0.9 * 0.7, 1e-9);
-    EXPECT_EQ(choice.judged, evaluator.judged);
-    EXPECT_LE(choice.judged, 16u);
+    EXPECT_EQ(choice.evaluated, evaluator.evaluated);
+    EXPECT_LE(choice.evaluated, 16u);
     EXPECT_TRUE(choice.significant);
     EXPECT_EQ(choice.candidates[*choice.chosen].status, CandidateStatus::raced);
     for (const Candidate& candidate : choice.candidates)
@@ -297,10 +297,10 @@ TEST(ChooseWords, MetricsAreTimeErrorAndMemory) {
     ChoiceReport report;
     report.words = report.commands = {"one", "other"};
     report.choice.candidates.resize(2);
-    Candidate& judged = report.choice.candidates[0];
-    judged.measured[Measure::ms] = 4.5;
-    judged.measured[Measure::flip] = 0.0125;
-    judged.measured[Measure::memory] = 3u << 20;
+    Candidate& evaluated = report.choice.candidates[0];
+    evaluated.measured[Measure::ms] = 4.5;
+    evaluated.measured[Measure::flip] = 0.0125;
+    evaluated.measured[Measure::memory] = 3u << 20;
     report.choice.chosen = 0;
     const std::string metrics = "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20);
     EXPECT_NE(inText(blocksOf(report)).find("\none\n" + metrics + "\n"), std::string::npos);

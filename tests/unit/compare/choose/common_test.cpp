@@ -34,8 +34,8 @@ class KnownEvaluator final : public Evaluator {
 public:
     explicit KnownEvaluator(const std::vector<Known>& of, double deviation = 0, std::uint64_t seed = 1)
         : of_(of), deviation_(deviation), random_(seed) {}
-    Measures judge(const Settings& settings) override {
-        ++judged;
+    Measures evaluate(const Settings& settings) override {
+        ++evaluated;
         Measures measured;
         measured[Measure::flip] = find(settings).error;
         measured[Measure::memory] = 1000;
@@ -51,7 +51,7 @@ public:
     std::vector<PassTime> profile(const Settings& settings) override {
         return {{"shade", find(settings).ms}};
     }
-    std::size_t judged = 0;
+    std::size_t evaluated = 0;
 
 private:
     const Known& find(Settings settings) const {
@@ -76,7 +76,7 @@ struct ForAll {
             SearchOptions search_options;
             search_options.budget = budget;
             own.push_back(search(candidates, labs.back(), search_options));
-            labs.back().judged = 0;
+            labs.back().evaluated = 0;
         }
         for (const Choice& choice : own) pointers.push_back(&choice);
         options.budget = budget;
@@ -184,7 +184,7 @@ TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
     ASSERT_EQ(all.candidates.size(), 2u);
     EXPECT_EQ(all.candidates[0].settings, compactOne);
     EXPECT_EQ(all.candidates[1].settings, fullOne);
-    EXPECT_EQ(evaluator.judged, 0u) << "both are known";
+    EXPECT_EQ(evaluator.evaluated, 0u) << "both are known";
 }
 
 TEST(ChooseForAll, AMissIsTheWorstOfTheLimits) {

@@ -54,7 +54,7 @@ std::vector<RecordedSweep> recordedSweeps() {
     return sweeps;
 }
 
-experiment::Measures RecordedEvaluator::judge(const Settings& settings) {
+experiment::Measures RecordedEvaluator::evaluate(const Settings& settings) {
     const RecordedRow& row = sweep_.find(settings);
     experiment::Measures measured;
     measured[experiment::Measure::flip] = row.error;

@@ -39,7 +39,7 @@ public:
     RecordedEvaluator(const RecordedSweep& sweep, const ReplayNoise& noise, std::uint64_t seed)
         : sweep_(sweep), noise_(noise), random_(seed) {}
 
-    experiment::Measures judge(const Settings& settings) override;
+    experiment::Measures evaluate(const Settings& settings) override;
     std::vector<double> time(std::span<const Settings> frames, std::span<const std::size_t> order) override;
     std::vector<PassTime> profile(const Settings& settings) override;
 

@@ -249,7 +249,7 @@ TEST(Flip, StatisticsAreOfCoveredPixelsAndFiltersOfAll) {
 }
 
 // FLIP shows values outside its range as the nearest that it can.
-TEST(Flip, WhatItCannotSeeIsJudgedByTheDifference) {
+TEST(Flip, WhatItCannotSeeIsEvaluatedByTheDifference) {
     Image low = noise(40, 40, 13), wild = low;
     set(low, 9, 9, -3.0f);
     set(wild, 9, 9, -2.0f);

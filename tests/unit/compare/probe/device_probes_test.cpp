@@ -27,7 +27,7 @@ TEST(DeviceProbes, ADeviceThatIsAsInexactAsVulkanAllowsPasses) {
     for (const Probe& probe : allProbes()) {
         if (!probe.inexact) continue;
         const std::vector<float> in = inputsOf(probe, 0, some_rows / probe.line * probe.line);
-        const Result result = concluded(probe, judged(probe, 0, in, inexactRows(probe, in)));
+        const Result result = concluded(probe, evaluated(probe, 0, in, inexactRows(probe, in)));
         EXPECT_EQ(result.tally.failures, 0u) << tableOf(std::array{result}, true);
         EXPECT_GT(result.tally.results, result.tally.unpromised) << probe.name;
     }
@@ -38,7 +38,7 @@ TEST(DeviceProbes, EachHasANameInputsAndAReason) {
     for (const Probe& p : allProbes()) {
         EXPECT_TRUE(names.insert(p.name).second) << p.name << " is there twice";
         EXPECT_FALSE(p.group.empty() || p.inputs.empty() || p.because.empty() || p.unit.empty()) << p.name;
-        EXPECT_TRUE(p.make && (p.judge || (p.definition && p.allowance))) << p.name;
+        EXPECT_TRUE(p.make && (p.evaluate || (p.definition && p.allowance))) << p.name;
         EXPECT_EQ(p.rows % p.line, 0u) << p.name;
         EXPECT_LE(std::max(p.ins, p.outs), widest) << p.name;
     }
@@ -64,7 +64,7 @@ Result doubled(const Probe& probe, float factor) {
     const std::vector<float> in = inputsOf(probe, 0, 4);
     std::vector<float> out;
     for (const float x : in) out.push_back(2 * x * factor);
-    return concluded(probe, judged(probe, 0, in, out));
+    return concluded(probe, evaluated(probe, 0, in, out));
 }
 
 Probe doubling() {
@@ -104,11 +104,11 @@ TEST(DeviceProbes, TheTableAndTheJsonSayWhatFailsAndOfWhichInput) {
 TEST(DeviceProbes, AStepBackFailsWhereNoDeviceMayTakeIt) {
     Probe probe = doubling();
     probe.allowance = [](const float*, double* allowed) { allowed[0] = 10; };
-    const auto judge = [&] { return concluded(probe, judged(probe, 0, {1, 2, 3, 4}, {2, 4, 3, 8})); };
-    EXPECT_FALSE(judge().passed);
+    const auto evaluate = [&] { return concluded(probe, evaluated(probe, 0, {1, 2, 3, 4}, {2, 4, 3, 8})); };
+    EXPECT_FALSE(evaluate().passed);
     probe.strict = false;
-    EXPECT_TRUE(judge().passed);
-    EXPECT_EQ(judge().tally.backward, 1u) << "it is counted";
+    EXPECT_TRUE(evaluate().passed);
+    EXPECT_EQ(evaluate().tally.backward, 1u) << "it is counted";
 }
 
 // A row's inputs do not depend on how many rows are made at once.

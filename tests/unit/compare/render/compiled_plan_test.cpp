@@ -65,7 +65,7 @@ TEST(CompiledPlan, SpillsAreWarningsAndWhatDoesNotCompileAnError) {
     path.pipelines.push_back(pipeline("shade", "heavy.frag", cost(256, 4, 1), "shadows=1"));
     path.pipelines.back().compiled.shaders[0].cost.spilled_vectors = 12;
     path.pipelines.push_back({"shade", false, "broken.frag", "", {{}, "does not compile: no"}, {}});
-    judge(path);
+    evaluate(path);
     ASSERT_EQ(path.warnings.size(), 1u);
     EXPECT_EQ(path.warnings[0],
               "forward_plus, shade: heavy.frag spills 12 vector and 0 scalar registers, 0 bytes of scratch "

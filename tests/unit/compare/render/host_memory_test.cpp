@@ -72,7 +72,7 @@ TEST(HostMemory, IsAboutWhatCommandsTake) {
         RenderOptions options = channels(m.all);
         if (m.compare) {
             settings.push_back(settingsOf(Path::forward_plus, m.size, m.msaa));
-            options = judgedOptions(options, settings, false, false);
+            options = evaluatedOptions(options, settings, false, false);
         }
         const double estimate =
             m.scene + static_cast<double>(hostMemory(settings, withoutAbsentLayers(options, 0), true, m.sun,

@@ -121,7 +121,7 @@ TEST(ReportErrors, ThePageTellsThem) {
 }
 
 // The card of roughness judged by a rule; one pixel is off by 0.25. `shown` is the FLIP map.
-std::string judgedCard(const Criterion& criterion, const Image* shown = nullptr) {
+std::string evaluatedCard(const Criterion& criterion, const Image* shown = nullptr) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
     Report report = reportOf(std::move(frames));
@@ -140,15 +140,15 @@ std::string judgedCard(const Criterion& criterion, const Image* shown = nullptr)
 }
 
 TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
-    const std::string largest = judgedCard({.metric = "max", .measured = 0.25, .limit = 0.002});
+    const std::string largest = evaluatedCard({.metric = "max", .measured = 0.25, .limit = 0.002});
     EXPECT_NE(largest.find(">limit 0.002, beyond the left edge<"), std::string::npos) << largest;
     EXPECT_NE(largest.find("<rect class=\"part past\""), std::string::npos);
     EXPECT_NE(largest.find("</i>beyond the limit"), std::string::npos) << "in the difference's legend";
-    const std::string within = judgedCard({.metric = "p999", .measured = 0.25, .limit = 50});
+    const std::string within = evaluatedCard({.metric = "p999", .measured = 0.25, .limit = 50});
     EXPECT_NE(within.find(">limit 50, beyond the right edge<"), std::string::npos) << within;
     EXPECT_EQ(within.find("<rect class=\"part past\""), std::string::npos);
     for (const char* metric : {"mean", "flip", "relative_max", "angle_max"}) {
-        const std::string other = judgedCard({.metric = metric, .measured = 0.25, .limit = 0.002});
+        const std::string other = evaluatedCard({.metric = metric, .measured = 0.25, .limit = 0.002});
         EXPECT_NE(other.find("class=\"part part7\""), std::string::npos) << "no colour says that it passes";
         EXPECT_NE(other.find(fmt::format("the limit applies to {}, not to these errors", metric)),
                   std::string::npos)
@@ -161,7 +161,7 @@ TEST(ReportErrors, ARulesLimitIsShownWhereItIsOnWhatIsDrawn) {
 TEST(ReportErrors, TheWorstPixelsAreOfTheImageThatIsDrawn) {
     Image flip(4, 3, 1, 0.0f);
     flip.at(1, 2) = 0.125f;
-    const std::string card = judgedCard({.metric = "flip", .measured = 0.25, .limit = 0.002}, &flip);
+    const std::string card = evaluatedCard({.metric = "flip", .measured = 0.25, .limit = 0.002}, &flip);
     EXPECT_NE(card.find("<h4>Worst pixels, by FLIP</h4>"), std::string::npos) << card;
     EXPECT_NE(card.find("data-pixel=\"1,2\">1, 2</a><span>0.125</span>"), std::string::npos) << card;
     EXPECT_NE(card.find(">FLIP</text>"), std::string::npos);
@@ -170,7 +170,7 @@ TEST(ReportErrors, TheWorstPixelsAreOfTheImageThatIsDrawn) {
     EXPECT_NE(card.find("the limit applies to flip, not to these errors"), std::string::npos)
         << "it is a mean";
     EXPECT_EQ(
-        judgedCard({.metric = "flip"}, std::make_unique<Image>(4, 3, 1, 0.0f).get()).find("Worst pixels"),
+        evaluatedCard({.metric = "flip"}, std::make_unique<Image>(4, 3, 1, 0.0f).get()).find("Worst pixels"),
         std::string::npos)
         << "nothing of it is worst";
 }

@@ -189,7 +189,7 @@ TEST(ReportJunit, TheRulesFindFaults) {
 }
 
 // A channel's deciding metric and limit are in its case, whether it passes or not.
-TEST(ReportJunit, EveryJudgedChannelSaysWhatWasMeasured) {
+TEST(ReportJunit, EveryEvaluatedChannelSaysWhatWasMeasured) {
     const fs::path here = folder();
     writeReport(failingOfTwo(), here / "report", {});
     const Element root = rootOf(contentsOf(here / "report" / "junit.xml"));

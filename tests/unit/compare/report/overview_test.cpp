@@ -17,7 +17,7 @@ std::string rowOf(const std::string& page, const std::string& channel) {
 }
 
 // One covered pixel; its roughness differs by 0.25.
-TEST(ReportOverview, SaysWhatAChannelIsJudgedBy) {
+TEST(ReportOverview, SaysWhatAChannelIsEvaluatedBy) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
     const std::filesystem::path out = folder() / "report";

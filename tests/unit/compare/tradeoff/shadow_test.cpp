@@ -75,7 +75,7 @@ TEST(TradeoffShadow, AFrameWithoutMapsShowsTheSunEverywhere) {
     EXPECT_TRUE(std::isinf((*shadowErrorsOf(unlit, open))[3])) << "nothing should be lit";
 }
 
-TEST(TradeoffShadow, WhatCannotBeJudgedIsNot) {
+TEST(TradeoffShadow, WhatCannotBeEvaluatedIsNot) {
     Frame other = filteredRow({1, 1});
     EXPECT_FALSE(shadowErrorsOf(tracedRow(), other)) << "of another size";
     other.channels.clear();

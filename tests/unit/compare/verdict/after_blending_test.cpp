@@ -143,7 +143,7 @@ TEST(AfterBlending, AgainstTheReferenceAThousandthOfWhatIsCovered) {
     EXPECT_TRUE(only(blendReport(blendFrame(Path::reference), wrong)).passed()) << "within the tolerance";
 }
 
-TEST(AfterBlending, ARuleThatJudgesLitTurnsItIntoANote) {
+TEST(AfterBlending, ARuleThatEvaluatesLitTurnsItIntoANote) {
     Frame wrong = blendFrame(Path::forward_plus);
     setPixel(wrong, 7, 1, 2.5f);
     CompareOptions options;

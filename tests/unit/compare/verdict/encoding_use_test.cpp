@@ -97,7 +97,7 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
 }
 
 // A step of (n - 1) / (n + 1) changes a large index more.
-TEST(EncodingUse, AFilmsIndexIsJudgedAtItsValue) {
+TEST(EncodingUse, AFilmsIndexIsEvaluatedAtItsValue) {
     for (const double n : {1.0, 1.3, 2.5}) {
         PackedPair p;
         const double bound = (n + 1) * (n + 1) / 2 * 0.5 / 510;
@@ -109,7 +109,7 @@ TEST(EncodingUse, AFilmsIndexIsJudgedAtItsValue) {
     }
 }
 
-TEST(EncodingUse, AFilmsThicknessIsJudgedRelativeToIt) {
+TEST(EncodingUse, AFilmsThicknessIsEvaluatedRelativeToIt) {
     for (const double thickness : {1e-6, 0.5, 400.0}) {
         PackedPair p;
         const double bound = std::max(thickness * 0x1p-11, 0x1p-25);
@@ -137,7 +137,7 @@ TEST(EncodingUse, ADarkSheenHasANarrowBound) {
 }
 
 // A line's decoded direction may have either sign.
-TEST(EncodingUse, ALineIsJudgedWithoutItsSign) {
+TEST(EncodingUse, ALineIsEvaluatedWithoutItsSign) {
     PackedPair p;
     const double angle =
         lineBound(gpu::ANISOTROPY_ANGLE_BITS, gpu::STANDARD_NORMAL_BITS) / 180 * std::numbers::pi;
@@ -168,7 +168,7 @@ TEST(EncodingUse, AnAbsentLayerIsExactlyZero) {
 }
 
 // Frames of scenes without a layer lack its channels.
-TEST(EncodingUse, AChannelThatAPathLacksIsNotJudged) {
+TEST(EncodingUse, AChannelThatAPathLacksIsNotEvaluated) {
     const std::vector<Channel> lit{Channel::lit};
     for (const bool both : {false, true}) {
         PackedPair p;
@@ -222,7 +222,7 @@ TEST(EncodingUse, OnlyStoredFieldsHaveBounds) {
 }
 
 // With MSAA a fault at one sample alone counts, also in fields that are stored exactly.
-TEST(EncodingUse, EverySampleIsJudged) {
+TEST(EncodingUse, EverySampleIsEvaluated) {
     for (const Channel mode : lightingFields()) {
         PackedPair p;
         for (Frame& frame : p.frames)
@@ -241,7 +241,7 @@ TEST(EncodingUse, EverySampleIsJudged) {
 
 // lit depends on the surface fields. They are judged with it and shown if they fail; without light they
 // are only judged if compared themselves.
-TEST(EncodingUse, LitIsJudgedWithItsFields) {
+TEST(EncodingUse, LitIsEvaluatedWithItsFields) {
     const std::vector<Channel> lit{Channel::lit};
     PackedPair sound;
     EXPECT_TRUE(sound.report(lit).passed());

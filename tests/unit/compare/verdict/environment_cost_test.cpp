@@ -17,12 +17,12 @@
 namespace diptych {
 namespace {
 
-struct JudgedPair {
+struct EvaluatedPair {
     Frame reference, path;
     Requirements needs;
     Coverage coverage = everyPixel(1);
 
-    JudgedPair() {
+    EvaluatedPair() {
         reference.settings.path = Path::reference;
         reference.environment_costs = Image(1, 1, 9);
         std::ranges::copy(std::vector<float>{1, 2, 3, 10, 20, 30, 100, 1000, 10000},
@@ -36,7 +36,7 @@ struct JudgedPair {
 };
 
 TEST(EnvironmentCost, IsThatOfThePathsSettings) {
-    JudgedPair p;
+    EvaluatedPair p;
     const double spread = 4 * std::numbers::pi / 64;
     EXPECT_EQ(p.allowed(Channel::lit_diffuse), 1);
     EXPECT_NEAR(p.allowed(Channel::lit_specular), 10 + spread * 1000 + filteredShare * 10000, 1e-9);
@@ -55,7 +55,7 @@ TEST(EnvironmentCost, IsThatOfThePathsSettings) {
 }
 
 TEST(EnvironmentCost, PartsOfSpecularLightAreGrantedAllOfIt) {
-    const JudgedPair p;
+    const EvaluatedPair p;
     EXPECT_GT(p.allowed(Channel::lit_specular), 0);
     for (const Channel mode : {Channel::lit_clearcoat, Channel::lit_sheen})
         EXPECT_EQ(p.allowed(mode), p.allowed(Channel::lit_specular)) << debugMode(mode).name;
@@ -63,18 +63,18 @@ TEST(EnvironmentCost, PartsOfSpecularLightAreGrantedAllOfIt) {
 }
 
 TEST(EnvironmentCost, IsGrantedAgainstTheReferenceAlone) {
-    JudgedPair p;
+    EvaluatedPair p;
     EXPECT_TRUE(EnvironmentCost(p.pair()).any());
     p.reference.environment_costs = {};
     EXPECT_FALSE(EnvironmentCost(p.pair()).any());
     EXPECT_EQ(EnvironmentCost(p.pair()).allowed(debugMode(Channel::lit), 0), 0);
-    JudgedPair q;
+    EvaluatedPair q;
     q.reference.settings.path = Path::deferred;
     EXPECT_FALSE(EnvironmentCost(q.pair()).any());
 }
 
 TEST(EnvironmentCost, IsTakenFromThePixelsError) {
-    JudgedPair p;
+    EvaluatedPair p;
     p.reference.channels[Channel::lit_diffuse] = Image(1, 1, 3, 10.0f);
     for (const auto& [value, excess] : {std::pair{10.9f, 0.0}, {11.5f, 0.05}, {8.0f, 0.1}}) {
         p.path.channels[Channel::lit_diffuse] = Image(1, 1, 3, value);
@@ -85,7 +85,7 @@ TEST(EnvironmentCost, IsTakenFromThePixelsError) {
 }
 
 TEST(EnvironmentCost, WhatItTakesOfLitIsSaidWithItsSetting) {
-    JudgedPair p;
+    EvaluatedPair p;
     p.reference.environment_costs.data = {1, 0, 0, 3, 0, 0, 0, 0, 0};
     const DebugMode& lit = debugMode(Channel::lit);
     p.reference.channels[lit.channel] = Image(1, 1, 3, 10.0f);
@@ -94,17 +94,18 @@ TEST(EnvironmentCost, WhatItTakesOfLitIsSaidWithItsSetting) {
     EXPECT_EQ(grantedText(lit, granted),
               "lit is off by 20 % in the mean, granted to split IBL (p99.9 15 %): --ibl sampled; diffuse IBL "
               "(p99.9 5 %): --ibl-diffuse map");
-    const auto judged = [&](float value, const char* most) {
+    const auto evaluated = [&](float value, const char* most) {
         p.path.channels[lit.channel] = Image(1, 1, 3, value);
         const std::string text =
             fmt::format(R"({{"rules": [{{"channel": "lit", "granted": {}, "because": "x"}}]}})", most);
         const std::vector<Rule> rules = rulesFromJson(text, "t.json");
         return diffChannel(lit, p.pair(), rules, false);
     };
-    EXPECT_EQ(judged(12, "0.25").verdict, Verdict::pass);
-    EXPECT_EQ(judged(12, "0.15").reason, "granted 0.2 exceeds 0.15; 100 % of the pixels differ");
-    EXPECT_NEAR(grantedMean(judged(20, "1").granted), 0.4, 1e-6) << "what tolerances take of an error of 1";
-    EXPECT_EQ(judged(20, "1").verdict, Verdict::fail) << "the rest of it";
+    EXPECT_EQ(evaluated(12, "0.25").verdict, Verdict::pass);
+    EXPECT_EQ(evaluated(12, "0.15").reason, "granted 0.2 exceeds 0.15; 100 % of the pixels differ");
+    EXPECT_NEAR(grantedMean(evaluated(20, "1").granted), 0.4, 1e-6)
+        << "what tolerances take of an error of 1";
+    EXPECT_EQ(evaluated(20, "1").verdict, Verdict::fail) << "the rest of it";
     p.reference.environment_costs = {};
     EXPECT_TRUE(grantedIn(lit, p.pair()).empty());
 }

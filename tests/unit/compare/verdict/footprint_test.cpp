@@ -44,8 +44,8 @@ Image& channelIn(Frame& frame, Channel mode) {
     return frame.channels.at(mode);
 }
 
-ChannelDiff judged(std::vector<Frame> frames, Channel mode, const CompareOptions& options = {},
-                   const Requirements& needs = {}) {
+ChannelDiff evaluated(std::vector<Frame> frames, Channel mode, const CompareOptions& options = {},
+                      const Requirements& needs = {}) {
     Report report;
     report.device = {"a CPU", "1.0", "cpu"};
     report.frames = std::move(frames);
@@ -71,15 +71,15 @@ void addDetail(Image& image, float low, float high, int phase = 0) {
 
 TEST(Footprint, EvenPixelsAreHeldTightly) {
     std::vector<Frame> frames = evenFrames();
-    const ChannelDiff even = judged(frames, Channel::roughness);
+    const ChannelDiff even = evaluated(frames, Channel::roughness);
     ASSERT_TRUE(even.footprints.has_value());
     EXPECT_EQ(even.footprints->smooth, std::uint64_t{side * side});
     EXPECT_EQ(even.footprints->detailed, 0u);
     EXPECT_EQ(even.verdict, Verdict::pass);
     for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 0.9e-4f;
-    EXPECT_EQ(judged(frames, Channel::roughness).verdict, Verdict::pass);
+    EXPECT_EQ(evaluated(frames, Channel::roughness).verdict, Verdict::pass);
     for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 1.2e-4f;
-    const ChannelDiff off = judged(frames, Channel::roughness);
+    const ChannelDiff off = evaluated(frames, Channel::roughness);
     EXPECT_EQ(off.verdict, Verdict::fail);
     EXPECT_NE(off.reason.find("1.2 times the bound"), std::string::npos) << off.reason;
 }
@@ -89,22 +89,22 @@ TEST(Footprint, OnePixelInAThousandMayBeBeyond) {
     for (const int count : {1, 2}) {
         std::vector<Frame> frames = evenFrames();
         for (int i = 0; i < count; ++i) channelIn(frames[1], Channel::depth).at(4 + 8 * i, 8) = 0.5f * 1.1f;
-        EXPECT_EQ(judged(frames, Channel::depth).verdict, count == 1 ? Verdict::pass : Verdict::fail);
-        EXPECT_EQ(judged(frames, Channel::depth).footprints->beyond, static_cast<std::uint64_t>(count));
+        EXPECT_EQ(evaluated(frames, Channel::depth).verdict, count == 1 ? Verdict::pass : Verdict::fail);
+        EXPECT_EQ(evaluated(frames, Channel::depth).footprints->beyond, static_cast<std::uint64_t>(count));
     }
 }
 
-TEST(Footprint, DetailIsJudgedByFlip) {
+TEST(Footprint, DetailIsEvaluatedByFlip) {
     std::vector<Frame> frames = evenFrames();
     for (Frame& frame : frames) addDetail(channelIn(frame, Channel::albedo), 0.2f, 0.8f);
-    const ChannelDiff alike = judged(frames, Channel::albedo);
+    const ChannelDiff alike = evaluated(frames, Channel::albedo);
     EXPECT_EQ(alike.footprints->detailed, std::uint64_t{side * (side / 2 + 1)})
         << "the board, and the even column beside it";
     EXPECT_EQ(alike.footprints->flip, 0);
     EXPECT_EQ(alike.verdict, Verdict::pass);
     // Another mean is another texture; the right half stays unchanged.
     addDetail(channelIn(frames[1], Channel::albedo), 0.0f, 0.1f);
-    const ChannelDiff other = judged(frames, Channel::albedo);
+    const ChannelDiff other = evaluated(frames, Channel::albedo);
     EXPECT_EQ(other.footprints->beyond, 0u);
     EXPECT_GT(other.footprints->flip, detailFlip);
     EXPECT_EQ(other.verdict, Verdict::fail);
@@ -123,7 +123,7 @@ TEST(Footprint, FlipIsOfTheDetailAlone) {
     options.covered = detailed;
     const double expected =
         ldrFlip(channelIn(frames[0], Channel::albedo), channelIn(frames[1], Channel::albedo), options).mean;
-    const ChannelDiff albedo = judged(frames, Channel::albedo);
+    const ChannelDiff albedo = evaluated(frames, Channel::albedo);
     EXPECT_NEAR(albedo.footprints->flip, expected, 1e-12);
     EXPECT_GT(
         expected,
@@ -135,7 +135,7 @@ TEST(Footprint, APixelIsSmoothOnlyInBoth) {
     for (const std::size_t other : {0u, 1u}) {
         std::vector<Frame> frames = evenFrames();
         addDetail(channelIn(frames[other], Channel::albedo), 0.47f, 0.53f);
-        const ChannelDiff albedo = judged(frames, Channel::albedo);
+        const ChannelDiff albedo = evaluated(frames, Channel::albedo);
         EXPECT_EQ(albedo.footprints->detailed, std::uint64_t{side * (side / 2 + 1)}) << other;
         EXPECT_EQ(albedo.footprints->beyond, 0u);
         EXPECT_EQ(albedo.verdict, Verdict::pass) << albedo.reason;
@@ -152,15 +152,15 @@ TEST(Footprint, OnlyTheReferencesSurroundingsAreGranted) {
         for (int y = 9; y < 12; ++y)
             for (int x = 9; x < 12; ++x) depth.at(x, y) = 0.6f;
         depth.at(10, 10) = 100;
-        EXPECT_EQ(judged(frames, Channel::depth).footprints->beyond, 9u);
+        EXPECT_EQ(evaluated(frames, Channel::depth).footprints->beyond, 9u);
         addDetail(channelIn(frames[path], Channel::albedo), 0.496f, 0.504f);
-        const ChannelDiff albedo = judged(frames, Channel::albedo);
+        const ChannelDiff albedo = evaluated(frames, Channel::albedo);
         EXPECT_EQ(albedo.footprints->smooth, std::uint64_t{side * side});
         EXPECT_EQ(albedo.footprints->beyond, std::uint64_t{side * side / 2});
         EXPECT_EQ(albedo.verdict, Verdict::fail);
         // Negative control: a path may vary as much as the reference varies.
         std::swap(frames[0].channels, frames[1].channels);
-        EXPECT_EQ(judged(frames, Channel::albedo).footprints->beyond, 0u);
+        EXPECT_EQ(evaluated(frames, Channel::albedo).footprints->beyond, 0u);
     }
 }
 
@@ -174,11 +174,11 @@ TEST(Footprint, GeometryIsHeldInsideOfMaterials) {
                 channelIn(frame, Channel::depth).at(x, y) = 7;
             }
     channelIn(frames[1], Channel::depth).at(side / 2 - 1, 5) = 0.5f;
-    const ChannelDiff edge = judged(frames, Channel::depth);
+    const ChannelDiff edge = evaluated(frames, Channel::depth);
     EXPECT_EQ(edge.verdict, Verdict::pass);
     EXPECT_EQ(edge.footprints->edges, std::uint64_t{2 * side});
     for (float& v : channelIn(frames[1], Channel::depth).data) v *= 1.001f;
-    EXPECT_EQ(judged(frames, Channel::depth).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::depth).verdict, Verdict::fail);
 }
 
 // A different material everywhere is not an edge, and neither is a missing object.
@@ -187,8 +187,8 @@ TEST(Footprint, AnotherMaterialIsNoEdge) {
         std::vector<Frame> frames = evenFrames();
         for (float& v : channelIn(frames[1], Channel::material_id).data) v = id;
         for (float& v : channelIn(frames[1], Channel::depth).data) v = id < 0 ? 0 : 0.7f;
-        EXPECT_EQ(judged(frames, Channel::material_id).verdict, Verdict::fail) << id;
-        EXPECT_EQ(judged(frames, Channel::depth).verdict, Verdict::fail) << id;
+        EXPECT_EQ(evaluated(frames, Channel::material_id).verdict, Verdict::fail) << id;
+        EXPECT_EQ(evaluated(frames, Channel::depth).verdict, Verdict::fail) << id;
     }
 }
 
@@ -198,7 +198,7 @@ TEST(Footprint, NansAreNeverDetail) {
     for (Frame& frame : frames) addDetail(channelIn(frame, Channel::albedo), 0.2f, 0.8f);
     for (const int x : {3, 7})
         channelIn(frames[1], Channel::albedo).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(judged(frames, Channel::albedo).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::albedo).verdict, Verdict::fail);
 }
 
 // An infinite uncertainty of the reference does not excuse a NaN.
@@ -206,10 +206,10 @@ TEST(Footprint, AnInfiniteBoundHoldsNoNan) {
     std::vector<Frame> frames = evenFrames();
     frames[0].uncertainty = Image(side, side, 1, std::numeric_limits<float>::infinity());
     for (float& v : channelIn(frames[1], Channel::lit).data) v = 0.9f;
-    EXPECT_EQ(judged(frames, Channel::lit).footprints->used, 0) << "it excuses any number";
+    EXPECT_EQ(evaluated(frames, Channel::lit).footprints->used, 0) << "it excuses any number";
     for (const int x : {3, 7})
         channelIn(frames[1], Channel::lit).at(x, 4) = std::numeric_limits<float>::quiet_NaN();
-    const ChannelDiff lit = judged(frames, Channel::lit);
+    const ChannelDiff lit = evaluated(frames, Channel::lit);
     EXPECT_EQ(lit.footprints->beyond, 2u);
     EXPECT_EQ(lit.footprints->used, std::numeric_limits<double>::infinity());
     EXPECT_EQ(lit.footprints->x, 3) << "where it is";
@@ -221,12 +221,12 @@ TEST(Footprint, AnInfiniteBoundHoldsNoNan) {
 TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
     std::vector<Frame> frames = evenFrames();
     for (float& v : channelIn(frames[1], Channel::lit).data) v *= 1.01f;
-    EXPECT_EQ(judged(frames, Channel::lit).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::lit).verdict, Verdict::fail);
     for (float& v : channelIn(frames[1], Channel::metallic).data) v += 0.01f;
-    const ChannelDiff light = judged(frames, Channel::lit);
+    const ChannelDiff light = evaluated(frames, Channel::lit);
     EXPECT_EQ(light.footprints->smooth, 0u);
     EXPECT_EQ(light.verdict, Verdict::pass) << "a hundredth is no FLIP of 0.3";
-    EXPECT_EQ(judged(frames, Channel::metallic).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::metallic).verdict, Verdict::fail);
 }
 
 // Light is judged alike whichever channels are compared. Channels missing in both images do not matter. If
@@ -236,11 +236,11 @@ TEST(Footprint, LightIsHeldTightlyWhateverIsCompared) {
     std::vector<Frame> frames = evenFrames();
     for (Frame& frame : frames) frame.requested = {Channel::lit};
     for (float& v : channelIn(frames[1], Channel::lit).data) v *= 1.01f;
-    EXPECT_EQ(judged(frames, Channel::lit).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::lit).verdict, Verdict::fail);
     for (Frame& frame : frames) frame.channels.erase(Channel::albedo);
-    EXPECT_EQ(judged(frames, Channel::lit).verdict, Verdict::fail) << "neither has albedo";
+    EXPECT_EQ(evaluated(frames, Channel::lit).verdict, Verdict::fail) << "neither has albedo";
     frames[0].channels.erase(Channel::metallic);
-    const ChannelDiff loose = judged(frames, Channel::lit);
+    const ChannelDiff loose = evaluated(frames, Channel::lit);
     EXPECT_EQ(loose.footprints->closeShare(), 0);
     EXPECT_EQ(loose.verdict, Verdict::pass);
     Report report;
@@ -282,20 +282,20 @@ TEST(Footprint, TexelsAreGrantedWhatIsMeasured) {
     std::vector<Frame> frames = evenFrames();
     // At 0.5 a code is 0.006 wide; mip levels may be off by this.
     for (float& v : channelIn(frames[1], Channel::albedo).data) v = 0.5f + 0.005f;
-    EXPECT_EQ(judged(frames, Channel::albedo).verdict, Verdict::fail);
-    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::pass);
+    EXPECT_EQ(evaluated(frames, Channel::albedo).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::albedo, options).verdict, Verdict::pass);
     for (float& v : channelIn(frames[1], Channel::albedo).data) v = 0.5f + 0.012f;
-    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::albedo, options).verdict, Verdict::fail);
     texels.srgb[220] = static_cast<float>(exactSrgb(220) * 1.02);
-    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::pass) << "2 % at a brighter code";
+    EXPECT_EQ(evaluated(frames, Channel::albedo, options).verdict, Verdict::pass) << "2 % at a brighter code";
     texels.srgb[220] = static_cast<float>(exactSrgb(220));
     texels.srgb[100] = static_cast<float>(exactSrgb(100) * 1.02);
-    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::fail)
+    EXPECT_EQ(evaluated(frames, Channel::albedo, options).verdict, Verdict::fail)
         << "no factor brightens a darker code to a half";
     for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 0.9f / 255;
-    EXPECT_EQ(judged(frames, Channel::roughness, options).verdict, Verdict::pass);
+    EXPECT_EQ(evaluated(frames, Channel::roughness, options).verdict, Verdict::pass);
     for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 1.1f / 255;
-    EXPECT_EQ(judged(frames, Channel::roughness, options).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::roughness, options).verdict, Verdict::fail);
 }
 
 // A sheen's colour is decoded by the sRGB curve, its roughness and a film's weight are linear.
@@ -308,9 +308,9 @@ TEST(Footprint, TexelsOfASheenAndAFilmAreGranted) {
         for (const float share : {0.8f, 2.0f}) {
             std::vector<Frame> frames = evenFrames();
             for (float& v : channelIn(frames[1], mode).data) v = 0.5f + share * code;
-            EXPECT_EQ(judged(frames, mode).verdict, Verdict::fail)
+            EXPECT_EQ(evaluated(frames, mode).verdict, Verdict::fail)
                 << debugMode(mode).name << " without texels";
-            EXPECT_EQ(judged(frames, mode, options).verdict, share < 1 ? Verdict::pass : Verdict::fail)
+            EXPECT_EQ(evaluated(frames, mode, options).verdict, share < 1 ? Verdict::pass : Verdict::fail)
                 << debugMode(mode).name << " " << share;
         }
 }
@@ -326,7 +326,7 @@ TEST(Footprint, TexelsOfAThicknessAreGrantedByItsRange) {
     for (float& v : channelIn(frames[1], Channel::iridescence_thickness).data) v += 0.9f * 300 / 255;
     for (const float range : {300.0f, 200.0f, 0.0f}) {
         needs.film_thickness_range = range;
-        EXPECT_EQ(judged(frames, Channel::iridescence_thickness, options, needs).verdict,
+        EXPECT_EQ(evaluated(frames, Channel::iridescence_thickness, options, needs).verdict,
                   range == 300 ? Verdict::pass : Verdict::fail)
             << range;
     }
@@ -341,20 +341,20 @@ TEST(Footprint, TexelsOfAVolumeAreGrantedByItsThickness) {
     for (float& v : channelIn(frames[1], Channel::transmission_thickness).data) v += 0.9f * 0.3f / 255;
     for (const float range : {0.3f, 0.2f, 0.0f}) {
         needs.volume_thickness_range = range;
-        EXPECT_EQ(judged(frames, Channel::transmission_thickness, options, needs).verdict,
+        EXPECT_EQ(evaluated(frames, Channel::transmission_thickness, options, needs).verdict,
                   range == 0.3f ? Verdict::pass : Verdict::fail)
             << range;
     }
 }
 
 // As images, indices above 1 must not all be white.
-TEST(Footprint, DetailOfLargeIndicesIsJudged) {
+TEST(Footprint, DetailOfLargeIndicesIsEvaluated) {
     std::vector<Frame> frames = evenFrames();
     addDetail(channelIn(frames[0], Channel::iridescence_ior), 1.2f, 1.6f);
     addDetail(channelIn(frames[1], Channel::iridescence_ior), 1.2f, 1.6f);
-    EXPECT_EQ(judged(frames, Channel::iridescence_ior).verdict, Verdict::pass);
+    EXPECT_EQ(evaluated(frames, Channel::iridescence_ior).verdict, Verdict::pass);
     addDetail(channelIn(frames[1], Channel::iridescence_ior), 10, 10);
-    EXPECT_EQ(judged(frames, Channel::iridescence_ior).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::iridescence_ior).verdict, Verdict::fail);
 }
 
 // Specular-glossiness: albedo is diffuse times 1 - F0, so a code of F0 counts as well: at 0.5, and a diffuse
@@ -366,17 +366,17 @@ TEST(Footprint, TexelsOfF0AreGrantedToTheAlbedoThatTheyDarken) {
     glossy.specular_glossiness = true;
     std::vector<Frame> frames = evenFrames();
     for (float& v : channelIn(frames[1], Channel::albedo).data) v = 0.5f + 0.010f;
-    EXPECT_EQ(judged(frames, Channel::albedo, options).verdict, Verdict::fail);
-    EXPECT_EQ(judged(frames, Channel::albedo, options, glossy).verdict, Verdict::pass);
+    EXPECT_EQ(evaluated(frames, Channel::albedo, options).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::albedo, options, glossy).verdict, Verdict::pass);
     for (Frame& frame : frames)
         for (float& v : channelIn(frame, Channel::dielectric_f0).data) v = 0.01f;
-    EXPECT_EQ(judged(frames, Channel::albedo, options, glossy).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(frames, Channel::albedo, options, glossy).verdict, Verdict::fail);
 }
 
 TEST(Footprint, OtherComparisonsHaveNone) {
     std::vector<Frame> frames = evenFrames();
     frames[0].settings.reference_mode = ReferenceMode::surface;
-    EXPECT_FALSE(judged(frames, Channel::roughness).footprints.has_value());
+    EXPECT_FALSE(evaluated(frames, Channel::roughness).footprints.has_value());
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(Informative, LightDecidesNothingAndSurfacesDo) {
         informedReport({Channel::transmittance, Channel::transmittance, Channel::transmittance}).passed());
 }
 
-TEST(Informative, ARuleForLitJudgesIt) {
+TEST(Informative, ARuleForLitEvaluatesIt) {
     const std::vector<Rule> rules =
         rulesFromJson(R"({ "rules": [ { "channel": "lit", "max": 0.01, "because": "close" } ] })", "r.json");
     EXPECT_TRUE(informedReport({}, rules).passed());

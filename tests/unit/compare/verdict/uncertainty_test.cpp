@@ -44,7 +44,7 @@ Frame throughExr(const Frame& frame) {
     return frameFromExr(file);
 }
 
-ChannelDiff judged(const Frame& referenceFrame, const Frame& path) {
+ChannelDiff evaluated(const Frame& referenceFrame, const Frame& path) {
     Report report;
     report.device = device;
     report.frames = {referenceFrame, path};
@@ -80,7 +80,7 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
     const Frame referenceFrame = sampled(), back = throughExr(referenceFrame);
     for (const float right : {2.0f, 2.02f, 2.2f}) {
         const Frame path = frameOf(Path::forward_plus, 1.5f, right);
-        const ChannelDiff now = judged(referenceFrame, path), stored = judged(back, path);
+        const ChannelDiff now = evaluated(referenceFrame, path), stored = evaluated(back, path);
         ASSERT_EQ(now.mode->channel, Channel::lit);
         EXPECT_EQ(now.verdict, right > 2.1f ? Verdict::fail : Verdict::pass) << right;
         EXPECT_EQ(stored.verdict, now.verdict) << right;
@@ -92,7 +92,7 @@ TEST(Uncertainty, TheVerdictAgainstTheFileIsThatAgainstTheFrame) {
     }
     Frame bare = back;
     bare.uncertainty = {};
-    EXPECT_EQ(judged(bare, frameOf(Path::forward_plus, 1.5f, 2)).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(bare, frameOf(Path::forward_plus, 1.5f, 2)).verdict, Verdict::fail);
 }
 
 std::vector<double> certainOf(const Frame& a, const Frame& b) {
@@ -153,14 +153,14 @@ TEST(Uncertainty, OfAnySizeExcusesNothingThatIsNoNumber) {
             const std::vector<double> errors = certainOf(traced, path);
             EXPECT_EQ(errors[0], 0);
             EXPECT_EQ(errors[1], std::numeric_limits<double>::infinity()) << known << " " << wrong;
-            EXPECT_EQ(judged(traced, path).verdict, Verdict::fail);
+            EXPECT_EQ(evaluated(traced, path).verdict, Verdict::fail);
         }
 }
 
 // Error image, worst pixel and metric name show the judged error. The left pixel's error is larger, but
 // within the reference's uncertainty.
 TEST(Uncertainty, WhatIsJudgedIsWhatIsShown) {
-    const ChannelDiff fails = judged(sampled(), frameOf(Path::forward_plus, 1.5f, 2.5f));
+    const ChannelDiff fails = evaluated(sampled(), frameOf(Path::forward_plus, 1.5f, 2.5f));
     EXPECT_EQ(fails.verdict, Verdict::fail);
     ASSERT_TRUE(fails.criterion && fails.shown_error);
     EXPECT_EQ(fails.criterion->metric, "p99.9 of the excess") << "the column p99.9 is of all of the error";
@@ -170,21 +170,21 @@ TEST(Uncertainty, WhatIsJudgedIsWhatIsShown) {
     EXPECT_EQ(fails.shown_error_top, fails.tolerance.max);
     EXPECT_EQ(fails.stats.worst_x, 1);
     EXPECT_EQ(fails.stats.max, 0.5) << "the statistics stay those of the error";
-    const ChannelDiff passes = judged(sampled(), frameOf(Path::forward_plus, 1.5f, 2));
+    const ChannelDiff passes = evaluated(sampled(), frameOf(Path::forward_plus, 1.5f, 2));
     EXPECT_EQ(passes.verdict, Verdict::pass);
     ASSERT_TRUE(passes.shown_error);
     EXPECT_EQ(passes.shown_error->data, (PixelData{0, 0})) << "nothing of a channel that passes is beyond";
     Frame bare = sampled();
     bare.uncertainty = {};
-    EXPECT_FALSE(judged(bare, frameOf(Path::forward_plus, 1.5f, 2)).shown_error);
+    EXPECT_FALSE(evaluated(bare, frameOf(Path::forward_plus, 1.5f, 2)).shown_error);
 }
 
 // Relative to a black image without uncertainty, any light is an error.
 TEST(Uncertainty, OfABlackReferenceExcusesNoLight) {
     Frame traced = frameOf(Path::reference, 0, 0);
     traced.uncertainty = Image(2, 1, 1, 0.0f);
-    EXPECT_EQ(judged(traced, frameOf(Path::forward_plus, 0, 0)).verdict, Verdict::pass);
-    EXPECT_EQ(judged(traced, frameOf(Path::forward_plus, 0, 5)).verdict, Verdict::fail);
+    EXPECT_EQ(evaluated(traced, frameOf(Path::forward_plus, 0, 0)).verdict, Verdict::pass);
+    EXPECT_EQ(evaluated(traced, frameOf(Path::forward_plus, 0, 5)).verdict, Verdict::fail);
 }
 
 TEST(Uncertainty, IsWrittenBesideLitAlone) {

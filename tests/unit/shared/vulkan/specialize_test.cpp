@@ -95,12 +95,12 @@ std::map<std::string, int> interfaceOf(const SpirvWords& words) {
 // seed.
 std::string ofEveryModule(
     std::uint32_t first, std::uint32_t end,
-    const std::function<std::string(const ShaderModule&, const FeatureValues&)>& judge) {
+    const std::function<std::string(const ShaderModule&, const FeatureValues&)>& evaluate) {
     const auto modules = shaderModules();
     std::vector<std::string> said(modules.size());
     tbb::parallel_for(std::size_t{0}, modules.size(), [&](std::size_t i) {
         for (std::uint32_t seed = first; seed < end; ++seed)
-            if (const std::string words = judge(modules[i], featureValues(seed)); !words.empty())
+            if (const std::string words = evaluate(modules[i], featureValues(seed)); !words.empty())
                 said[i] += fmt::format("{}, seed {}: {}\n", modules[i].name, seed, words);
     });
     return fmt::format("{}", fmt::join(said, ""));
