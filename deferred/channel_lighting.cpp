@@ -29,12 +29,12 @@ struct ChannelDraw {
 // Shades channels into targets, cleared to 0.
 void addShading(PassList& passes, const FrameInputs& inputs, ImageRef depth,
                 std::shared_ptr<const DescriptorSets> channels, const ChannelDraw& draw) {
-    const gpu::uint most = inputs.entries_per_draw;
-    if (inputs.longest_list > most)
+    const gpu::uint max = inputs.entries_per_draw;
+    if (inputs.longest_list > max)
         throw std::runtime_error(
             fmt::format("relighting from channels reads up to {} light list entries, but a list has {}; use "
                         "--assign clustered or tiled, or --light-cutoff",
-                        most, inputs.longest_list));
+                        max, inputs.longest_list));
     Pass& pass = passes.draw(draw.name);
     for (const ImageRef target : draw.targets) pass.color(target, Load::clear);
     inputs.lists.read(passes, pass);

@@ -301,7 +301,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     FrameImages shaded = forLighting(frame);
     shaded.tiles = nullptr;  // one variant draws a channel
     const LightBatch last = stored ? addEarlierLighting(passes, inputs, shaded) : LightBatch{};
-    for (const CaptureGroup& group : captureGroups(request.modes, inputs.lit_format, mostCaptured(inputs))) {
+    for (const CaptureGroup& group : captureGroups(request.modes, inputs.lit_format, maxCaptured(inputs))) {
         const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
         Pass& pass = passes.draw("capture");
         for (const CapturedImage& image :

@@ -32,22 +32,22 @@ gpu::uint edgesOf(MsaaEdges edges) {
     return gpu::EDGES_EXACT;
 }
 
-std::uint64_t mostFurther(const PassList& passes, const FrameInputs& inputs) {
+std::uint64_t maxFurther(const PassList& passes, const FrameInputs& inputs) {
     return std::uint64_t{passes.width()} * passes.height() * (static_cast<gpu::uint>(inputs.samples) - 1);
 }
 
 // Whether secondary groups are listed. Not if the list would exceed the largest image.
 bool listsFurther(const PassList& passes, const FrameInputs& inputs) {
     const Device& device = inputs.device;
-    const std::uint32_t most = std::min(device.support().mostPixels(), 1u << gpu::FURTHER_PIXEL_BITS);
+    const std::uint32_t max = std::min(device.support().maxPixels(), 1u << gpu::FURTHER_PIXEL_BITS);
     return device.profile().shades_failed_samples && inputs.edges != MsaaEdges::all &&
            device.support().storesSamples() &&
            (device.support().sampleCounts(litFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                                          VK_IMAGE_USAGE_SAMPLED_BIT |
                                                          VK_IMAGE_USAGE_STORAGE_BIT) &
             inputs.samples) != 0 &&
-           std::max(passes.width(), passes.height()) <= most &&
-           mostFurther(passes, inputs) <= std::uint64_t{most} << gpu::FURTHER_WIDTH_BITS;
+           std::max(passes.width(), passes.height()) <= max &&
+           maxFurther(passes, inputs) <= std::uint64_t{max} << gpu::FURTHER_WIDTH_BITS;
 }
 
 // SET_GBUFFER with the list and, if valid, `lit` as a storage image.
@@ -71,7 +71,7 @@ FurtherGroups addGroups(PassList& passes, const FrameInputs& inputs, FrameImages
     if (inputs.samples == VK_SAMPLE_COUNT_1_BIT) return further;
     if (listsFurther(passes, inputs)) {
         constexpr VkFormat word = VK_FORMAT_R32_UINT;
-        const auto rows = static_cast<std::uint32_t>((mostFurther(passes, inputs) + gpu::FURTHER_WIDTH - 1) >>
+        const auto rows = static_cast<std::uint32_t>((maxFurther(passes, inputs) + gpu::FURTHER_WIDTH - 1) >>
                                                      gpu::FURTHER_WIDTH_BITS);
         further.count = passes.image({.name = "number of further groups",
                                       .format = word,
@@ -114,7 +114,7 @@ void addFurtherGroups(PassList& passes, const FrameInputs& inputs, const FrameIm
                       const FurtherGroups& further, ImageRef lit) {
     if (!further.any()) return;
     constexpr std::uint64_t a_draw = std::uint64_t{gpu::FURTHER_WIDTH} * gpu::FURTHER_ROWS;
-    const auto draws = static_cast<gpu::uint>((mostFurther(passes, inputs) + a_draw - 1) / a_draw);
+    const auto draws = static_cast<gpu::uint>((maxFurther(passes, inputs) + a_draw - 1) / a_draw);
     // Passes of one name are timed together.
     Pass& pass = passes.draw("shade")
                      .covers({gpu::FURTHER_WIDTH, gpu::FURTHER_ROWS})

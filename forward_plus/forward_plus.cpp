@@ -80,7 +80,7 @@ std::vector<CapturedImage> addForwardPlusCapture(PassList& passes, const FrameIn
                 });
             },
             SumsBy::attachments, inputs.layers);
-        for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, mostCaptured(inputs))) {
+        for (const CaptureGroup& group : captureGroups(modes, inputs.lit_format, maxCaptured(inputs))) {
             const ImageRef lit = addCaptureBackground(passes, inputs, frame.depth, group);
             Pass& pass = passes.draw("capture").depthTest(frame.depth);
             for (CapturedImage image :

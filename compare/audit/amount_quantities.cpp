@@ -12,9 +12,9 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr double mostCopies = 3000;
+constexpr double maxCopies = 3000;
 // Lights times pixels of an image; one second of lavapipe if every pixel evaluates every light.
-constexpr double mostLit = 1e8;
+constexpr double maxLit = 1e8;
 
 // A side of an image, in whole pixels.
 int wholePixels(double pixels) {
@@ -27,7 +27,7 @@ Size sizeForLights(const Subject& subject) {
     const Size size = subject.given.settings.size;
     const double pixels = static_cast<double>(size.width) * size.height;
     const auto local = static_cast<double>(std::ranges::count_if(subject.given.scene.lights, isLocal));
-    const double part = std::sqrt(std::min(1.0, mostLit / (mostCopies * local * pixels)));
+    const double part = std::sqrt(std::min(1.0, maxLit / (maxCopies * local * pixels)));
     return {wholePixels(size.width * part), wholePixels(size.height * part)};
 }
 
@@ -112,7 +112,7 @@ std::vector<Quantity> amountQuantities() {
     return {
         {.name = "lights",
          .what = "number of copies of every local light, which share its intensity",
-         .magnitudes = {1, 10, 100, 1000, mostCopies},
+         .magnitudes = {1, 10, 100, 1000, maxCopies},
          .lacks = {lacksLocalLight},
          .push = pushLights,
          .variants = {{"assign", "tiled"}, {"assign", "every"}},

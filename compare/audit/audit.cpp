@@ -12,8 +12,8 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr double resolved = 1.25;      // a breaking point is known to this factor
-constexpr std::size_t mostAdded = 16;  // refinement steps of a quantity
+constexpr double resolved = 1.25;     // a breaking point is known to this factor
+constexpr std::size_t maxAdded = 16;  // refinement steps of a quantity
 constexpr double agreement = 2;
 
 // The steps in order of distance from the default one.
@@ -56,7 +56,7 @@ double between(double a, double b) {
 // The next magnitude to measure between two steps, so that a breaking point is known to a factor of 1.25.
 // Empty if all are known, or after the maximum number of refinement steps.
 std::optional<double> nextMagnitude(const QuantityAudit& audit) {
-    if (audit.steps.size() >= audit.quantity->magnitudes.size() + 1 + mostAdded) return {};
+    if (audit.steps.size() >= audit.quantity->magnitudes.size() + 1 + maxAdded) return {};
     for (const std::vector<ValidRange>& of : audit.valid_ranges)
         for (const ValidRange& range : of)
             for (const BreakingPoint* point : {&range.up, &range.down}) {

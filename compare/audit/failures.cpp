@@ -21,7 +21,7 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr std::size_t mostTried = 120;  // cases that a reduction renders
+constexpr std::size_t maxTried = 120;  // cases that a reduction renders
 
 struct Broken {
     std::size_t series = 0, criterion = 0;
@@ -61,7 +61,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     };
     const std::string at =
         fmt::format("{} breaks at {}", series.describe(), magnitudeText(broken->magnitude, *of.quantity));
-    const std::optional<Reduced> reduced = reduce(pushed, test, mostTried);
+    const std::optional<Reduced> reduced = reduce(pushed, test, maxTried);
     Failure& failure = of.failures.emplace_back();
     if (!reduced) {
         failure.text = at + "; it does not occur without the scene's textures, environment and animation";

@@ -90,9 +90,9 @@ Json jsonOf(const SeriesResult& of, const Relation& relation) {
     json["tolerance"] = of.tolerance.describe();
     json["pixels"] = {{"covered", of.comparison.covered},
                       {"set_aside", of.comparison.aside},
-                      {"most_set_aside", of.comparison.most_aside},
+                      {"most_set_aside", of.comparison.max_aside},
                       {"filtered_otherwise", of.comparison.filtered},
-                      {"most_filtered_otherwise", of.comparison.most_filtered}};
+                      {"most_filtered_otherwise", of.comparison.max_filtered}};
     json["channels"] = arrayOf(of.comparison.channels, [](const ChannelResult& channel) -> Json {
         return {{"name", debugMode(channel.mode).name},  {"error", numberOf(channel.error)},
                 {"allowed", numberOf(channel.allowed)},  {"used", numberOf(channel.used)},

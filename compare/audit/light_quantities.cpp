@@ -35,15 +35,15 @@ void pushIntensity(Case& pushed, const Subject&, double factor) {
 
 // Range of light intensities, each in its own unit.
 Predicted predictIntensity(const Subject& subject, const Settings&, double) {
-    double most = 0, least = std::numeric_limits<double>::infinity();
+    double max = 0, min = std::numeric_limits<double>::infinity();
     for (const Light& light : subject.given.scene.lights) {
         if (!(light.intensity > 0)) continue;
-        most = std::max(most, double{light.intensity});
-        least = std::min(least, double{light.intensity});
+        max = std::max(max, double{light.intensity});
+        min = std::min(min, double{light.intensity});
     }
     // Products with squared distances and D keep some ten binary orders from either end.
-    return {.up = most > 0 ? 0x1p118 / most : Predicted::never,
-            .down = std::isfinite(least) ? 0x1p-116 / least : 0,
+    return {.up = max > 0 ? 0x1p118 / max : Predicted::never,
+            .down = std::isfinite(min) ? 0x1p-116 / min : 0,
             .because = "light is float32 from its source to the picture: 1e-38 to 3e38"};
 }
 
@@ -130,8 +130,8 @@ std::pair<std::size_t, float> brightestOf(const Image& radiance) {
 // Radiance, its maps and their sums are float32; a path's estimate multiplies it by some thousand at most.
 // Maps of fixed resolution spread a pixel that outshines all others, and samples miss it.
 Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
-    const float most = brightestOf(subject.given.scene.environment->radiance).second;
-    return {.up = most > 0 ? 0x1p118 / most : Predicted::never,
+    const float max = brightestOf(subject.given.scene.environment->radiance).second;
+    return {.up = max > 0 ? 0x1p118 / max : Predicted::never,
             .because =
                 "radiance is float32 from the environment to the picture, up to 3e38; maps and samples only "
                 "approximate a single bright pixel, and their error depends on all other pixels",

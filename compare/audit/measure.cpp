@@ -52,10 +52,10 @@ double imageError(const Frame& truth, const Frame& test, const Coverage& where, 
     const auto components = a.data.size() / where.covered.size();
     for (std::size_t i = 0; i < where.covered.size(); ++i) {
         if (!where.covered[i]) continue;
-        int most = 0;
+        int max = 0;
         for (std::size_t c = i * components; c < (i + 1) * components; ++c)
-            most = std::max(most, std::abs(int{a.data[c]} - int{b.data[c]}));
-        apart.push_back(most);
+            max = std::max(max, std::abs(int{a.data[c]} - int{b.data[c]}));
+        apart.push_back(max);
     }
     return experiment::nearestRank(std::move(apart), 0.99) / 255.0;
 }

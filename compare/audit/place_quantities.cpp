@@ -55,11 +55,11 @@ Predicted predictOffset(const Subject& subject, const Settings&, double error) {
 }
 
 Predicted predictScale(const Subject& subject, const Settings&, double) {
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (const Light& light : subject.given.scene.lights)
-        if (isPunctual(light)) least = std::min(least, double{light.intensity});
+        if (isPunctual(light)) min = std::min(min, double{light.intensity});
     // Candela scale with the square of the factor.
-    const double dim = std::isfinite(least) && least > 0 ? std::sqrt(0x1p-126 / least) : 0;
+    const double dim = std::isfinite(min) && min > 0 ? std::sqrt(0x1p-126 / min) : 0;
     return {.up = maxCoordinate / std::max(subject.bounds.radius(), 1e-30),
             .down = std::max(dim, 0x1p-63 / distanceOf(subject)),
             .because =

@@ -12,7 +12,7 @@ namespace diptych::audit {
 
 namespace {
 
-constexpr double leastError = 1e-8, mostError = 1e2;
+constexpr double minError = 1e-8, maxError = 1e2;
 
 std::string wordsOf(const QuantityAudit& audit, const Step& step, std::size_t series) {
     const Outcome& outcome = step.outcomes[series];
@@ -30,15 +30,14 @@ std::string auditPlot(const QuantityAudit& audit, PlotPlace place) {
     const Quantity& quantity = *audit.quantity;
     PlotPanel panel{
         .across = {fmt::format("{}{}{}", quantity.name, quantity.unit.empty() ? "" : ", ", quantity.unit)},
-        .up = {.name = "relative error", .shown = {leastError, mostError}}};
+        .up = {.name = "relative error", .shown = {minError, maxError}}};
     for (std::size_t s = 0; s < audit.series.size(); ++s)
         for (const Step& step : audit.steps) {
             const double error = step.outcomes[s].error();
             panel.pointsOf(audit.series[s].describe(), audit.series[s].path)
-                .push_back(
-                    {step.magnitude,
-                     error > 0 && std::isfinite(error) ? std::clamp(error, leastError, mostError) : error,
-                     wordsOf(audit, step, s)});
+                .push_back({step.magnitude,
+                            error > 0 && std::isfinite(error) ? std::clamp(error, minError, maxError) : error,
+                            wordsOf(audit, step, s)});
         }
     for (const std::size_t limit : {std::size_t{0}, requiredCriterion})
         panel.limits.push_back({.y = criteria[limit].limit, .name = std::string(criteria[limit].title)});

@@ -37,8 +37,8 @@ constexpr double roundingsOfAFacet = 28;
 // Chance that a filter's weight takes another of 256 steps between two texels: in two directions, in up to
 // four maps of two levels each, with coordinates rounded by four operations.
 constexpr double chancesOfATexel = 256.0 * 2 * 4 * 2 * 4;
-constexpr double mostFiltered = 0.25;  // more than this is another fault
-constexpr double roundoff = 0x1p-24;   // of one float32 operation
+constexpr double maxFiltered = 0.25;  // more than this is another fault
+constexpr double roundoff = 0x1p-24;  // of one float32 operation
 
 RenderOptions drawingRelated(bool packed = false) {
     RenderOptions options;
@@ -178,7 +178,7 @@ RelationTolerance RelationMeasurer::toleranceOf(const Relation& relation, const 
                             std::ldexp(1.0, -static_cast<int>(device_.limits().mipmapPrecisionBits));
     tolerance.facet = 2 * roundingsOfAFacet * roundoff * pixelsPerRadian(subject_);
     tolerance.filtered_share =
-        std::min(mostFiltered, chancesOfATexel * largestSide(related.base.scene) * roundoff);
+        std::min(maxFiltered, chancesOfATexel * largestSide(related.base.scene) * roundoff);
     tolerance.packed = packedBounds(settings);
     return tolerance;
 }
@@ -269,7 +269,7 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
     // Visibility among coinciding surfaces is arbitrary.
     if (relation.equality != Equality::rounding && !relation.reorders) return result;
     const bool many = std::ranges::any_of(
-        result.series, [](const SeriesResult& of) { return of.comparison.aside > of.comparison.most_aside; });
+        result.series, [](const SeriesResult& of) { return of.comparison.aside > of.comparison.max_aside; });
     if (spoil || !many || tied() <= result.series.front().comparison.covered / 100) return result;
     result.lacks =
         fmt::format("{} show coinciding surfaces, where either may be visible", counted(tied(), "pixel"));

@@ -47,10 +47,10 @@ std::string describeWorst(const SeriesResult& of) {
                           worst->x, worst->y);
     if (comparison.aside > 0)
         out += fmt::format("; another surface at {} (at most {})", counted(comparison.aside, "pixel"),
-                           comparison.most_aside);
+                           comparison.max_aside);
     if (comparison.filtered > 0)
         out += fmt::format("; a texture filtered differently at {} (at most {})",
-                           counted(comparison.filtered, "pixel"), comparison.most_filtered);
+                           counted(comparison.filtered, "pixel"), comparison.max_filtered);
     return out;
 }
 

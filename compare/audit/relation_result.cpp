@@ -23,7 +23,7 @@ namespace diptych::audit {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr double leastAlpha = 1e-4;  // below it a highlight is smaller than any pixel
+constexpr double minAlpha = 1e-4;  // below it a highlight is smaller than any pixel
 // Largest relative change per radian of a thin film's colours, two terms cos(2.24e6 p) exp(-4.5e9 p^2) with p
 // = 2 pi OPD: as p changes by its own size at most, each changes by at most 14.
 constexpr double filmSlope = 30;
@@ -36,21 +36,21 @@ constexpr std::uint64_t fewPixels = 8;  // chance decides about so few
 constexpr std::uint64_t pixelsForOneTie = 100;
 
 double largest(const float* pixel, int components) {
-    double most = 0;
+    double max = 0;
     for (int c = 0; c < components; ++c)
-        if (std::isfinite(pixel[c])) most = std::max(most, std::abs(double{pixel[c]}));
-    return most;
+        if (std::isfinite(pixel[c])) max = std::max(max, std::abs(double{pixel[c]}));
+    return max;
 }
 
 // Infinite if one value is not finite and the other is not the same.
 double apart(const float* a, const float* b, int components) {
-    double most = 0;
+    double max = 0;
     for (int c = 0; c < components; ++c) {
         if (a[c] == b[c] || (std::isnan(a[c]) && std::isnan(b[c]))) continue;
         const double difference = std::abs(double{a[c]} - double{b[c]});
-        most = std::max(most, std::isfinite(difference) ? difference : unbounded);
+        max = std::max(max, std::isfinite(difference) ? difference : unbounded);
     }
-    return most;
+    return max;
 }
 
 // Fraction of the tolerance used; a non-finite error exceeds any tolerance, even an infinite one.
@@ -88,14 +88,14 @@ public:
         if (tolerance_.equality == Equality::rounding) setEdgesAside(result);
         if (tolerance_.reorders) setTiesAside(result);
         if (tolerance_.equality == Equality::rounding) findFiltered(result);
-        double most = -1;
+        double max = -1;
         for (const Channel mode : relatedChannels()) {
             if (!isKnown(mode)) continue;
             Image used;
             result.channels.push_back(channel(mode, used));
             const ChannelResult& of = result.channels.back();
-            if (of.used > most && (most <= 1 || mode == Channel::lit)) {
-                most = of.used;
+            if (of.used > max && (max <= 1 || mode == Channel::lit)) {
+                max = of.used;
                 result.used_by_pixel = std::move(used);
             }
         }
@@ -159,7 +159,7 @@ private:
     // by 2 / alpha if the half vector is alpha away; cosines, Smith's and Fresnel's factors by some 4.
     double lightByNormal(Channel normals, Channel roughnesses, std::size_t pixel) const {
         const double roughness = given(roughnesses).data[pixel];
-        return (2 / std::max(roughness * roughness, leastAlpha) + 4) * normalApart(normals, pixel);
+        return (2 / std::max(roughness * roughness, minAlpha) + 4) * normalApart(normals, pixel);
     }
     // A sheen's ln D changes by cot(theta_h) / alpha, which is less than 2 / alpha where D is not small. The
     // sheen has a least roughness, and the normal of the base.
@@ -238,7 +238,7 @@ private:
                 (blended && !isWithinRounding(Channel::lit, i));
             result.aside += aside_[i];
         }
-        result.most_aside = std::max(fewPixels, edges / edgesForOneAside);
+        result.max_aside = std::max(fewPixels, edges / edgesForOneAside);
     }
 
     void setTiesAside(FrameResult& result) {
@@ -249,7 +249,7 @@ private:
             });
             result.aside += aside_[i];
         }
-        result.most_aside = std::max(fewPixels, where_.count / pixelsForOneTie);
+        result.max_aside = std::max(fewPixels, where_.count / pixelsForOneTie);
     }
 
     void findFiltered(FrameResult& result) {
@@ -263,7 +263,7 @@ private:
             });
             result.filtered += filtered_[i];
         }
-        result.most_filtered = std::max(
+        result.max_filtered = std::max(
             fewPixels, static_cast<std::uint64_t>(static_cast<double>(textured) * tolerance_.filtered_share));
     }
 
@@ -371,7 +371,7 @@ std::string RelationTolerance::describe() const {
 }
 
 bool FrameResult::passes() const {
-    return failed.empty() && aside <= most_aside && filtered <= most_filtered &&
+    return failed.empty() && aside <= max_aside && filtered <= max_filtered &&
            std::ranges::all_of(channels, [](const ChannelResult& of) { return of.beyond == 0; });
 }
 

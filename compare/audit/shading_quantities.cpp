@@ -127,9 +127,9 @@ void pushHaze(Case& pushed, const Subject&, double density) {
 Predicted predictHaze(const Subject& subject, const Settings& settings, double) {
     if (settings.haze_march_steps > 0 || !subject.seen) return {};
     const Rgb &r = settings.haze_rayleigh, &m = settings.haze_mie;
-    const double least = std::min({double{r.r} + m.r, double{r.g} + m.g, double{r.b} + m.b});
+    const double min = std::min({double{r.r} + m.r, double{r.g} + m.g, double{r.b} + m.b});
     constexpr double opaque = 87;  // e^-87 is float32's smallest normal number
-    return {.up = opaque / (least * subject.nearest),
+    return {.up = opaque / (min * subject.nearest),
             .because =
                 "float32 transmittance is 0 beyond an optical depth of 87, which the nearest surface reaches "
                 "there"};

@@ -78,7 +78,7 @@ struct BenchGroup {
 // Vector registers, per lane, of the pipelines with which a pass shades.
 struct PassRegisters {
     std::string pass;
-    double least = 0, most = 0;
+    double min = 0, max = 0;
 };
 
 // One Settings. Row::scene includes the light count, Row::warnings are caveats for the reader. `failed` if

@@ -18,11 +18,11 @@ void findPass(Conclusion& c) {
     std::map<std::string, std::pair<double, double>> ms;  // faster, slower row
     for (const PassTime& pass : c.faster->passes) ms[pass.name].first += pass.ms;
     for (const PassTime& pass : c.slower->passes) ms[pass.name].second += pass.ms;
-    double most = 0;
+    double max = 0;
     for (const auto& [name, times] : ms) {
         const double saved = times.second - times.first;
-        if (saved <= most) continue;
-        most = saved;
+        if (saved <= max) continue;
+        max = saved;
         c.pass = name;
         c.faster_ms = times.first;
         c.slower_ms = times.second;

@@ -28,18 +28,18 @@ std::string numberText(double value) {
 // The pass whose time grows most from the first row to the last, and its share of all added time.
 std::string cause(const GrowthLine& line) {
     const std::vector<PassTime>&first = line.rows.front()->passes, &last = line.rows.back()->passes;
-    double all = 0, most = 0;
+    double all = 0, max = 0;
     std::string name;
     for (const PassTime& pass : last) {
         const auto before = std::ranges::find(first, pass.name, &PassTime::name);
         const double grown = pass.ms - (before == first.end() ? 0 : before->ms);
         all += std::max(grown, 0.0);
-        if (grown <= most) continue;
-        most = grown;
+        if (grown <= max) continue;
+        max = grown;
         name = pass.name;
     }
     if (name.empty()) return {};
-    return fmt::format("; {:.0f} % of the added time is in {}", 100 * most / all, name);
+    return fmt::format("; {:.0f} % of the added time is in {}", 100 * max / all, name);
 }
 
 std::string lineText(const GrowthLine& line, const char* what, const std::vector<double>& amounts,
@@ -80,7 +80,7 @@ std::vector<GrowthLine> growthLines(const Bench& bench) {
 
 Bend bendOf(const std::vector<double>& values, const std::vector<double>& amounts) {
     if (values.size() != amounts.size()) throw std::logic_error("a value has no amount");
-    Bend most;
+    Bend max;
     double grown = 0;  // log of the growth ratio
     for (std::size_t first = 0, last = 0; first + 1 < values.size(); first = std::max(last, first + 1)) {
         last = first;
@@ -89,10 +89,10 @@ Bend bendOf(const std::vector<double>& values, const std::vector<double>& amount
             ++last;
         if (last == first || std::log(amounts[last] / amounts[first]) <= grown) continue;
         grown = std::log(amounts[last] / amounts[first]);
-        most = {values[first], values[last],
-                slope(values[first], amounts[first], values[last], amounts[last]), true};
+        max = {values[first], values[last], slope(values[first], amounts[first], values[last], amounts[last]),
+               true};
     }
-    return most;
+    return max;
 }
 
 double memoryMib(const BenchRow& row) {

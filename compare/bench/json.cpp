@@ -95,7 +95,7 @@ Json growthJson(const Bench& bench) {
 
 Json layersJson(const Bench& bench) {
     const auto registersOf = [](const PassRegisters& pass) -> Json {
-        return {{"pass", pass.pass}, {"least", pass.least}, {"most", pass.most}};
+        return {{"pass", pass.pass}, {"least", pass.min}, {"most", pass.max}};
     };
     const auto rowOf = [&](const LayerRow& row) -> Json {
         Json ways = Json::array();

@@ -19,18 +19,18 @@ std::size_t wayOf(const Settings& settings) {
 
 // Finds the fastest ways.
 void compareWays(LayerRow& row) {
-    const BenchRow* least = nullptr;
+    const BenchRow* min = nullptr;
     std::size_t timed = 0;
     for (const BenchRow* const way : row.ways) {
         if (way == nullptr) continue;
         ++timed;
-        if (least == nullptr || (*way)[Measure::ms] < (*least)[Measure::ms]) least = way;
+        if (min == nullptr || (*way)[Measure::ms] < (*min)[Measure::ms]) min = way;
     }
     if (timed < 2) return;
     for (std::size_t i = 0; i < row.ways.size(); ++i) {
         if (row.ways[i] == nullptr) continue;
-        const experiment::TimeRatio ratio = experiment::pairedRatio(row.ways[i]->ms, least->ms);
-        if (row.ways[i] == least || !ratio.isSure() || ratio.low < 1)
+        const experiment::TimeRatio ratio = experiment::pairedRatio(row.ways[i]->ms, min->ms);
+        if (row.ways[i] == min || !ratio.isSure() || ratio.low < 1)
             row.fastest.push_back(i);
         else
             row.lead = row.lead == 0 ? ratio.ratio : std::min(row.lead, ratio.ratio);
@@ -91,10 +91,10 @@ std::string outcomeText(const std::vector<const LayerRow*>& rows, std::size_t al
     const std::vector<std::string> fastest = rows.front()->fastestNames();
     std::string subject = "no significant difference between the ways", detail;
     if (fastest.size() == 1) {
-        const LayerRow& most = **std::ranges::max_element(rows, {}, &LayerRow::lead);
+        const LayerRow& max = **std::ranges::max_element(rows, {}, &LayerRow::lead);
         subject = fastest.front() + " is the fastest";
-        detail = fmt::format(" (the next takes up to {:.2f} times as long: {}, {})", most.lead,
-                             coverName(most.cover), counted(most.lights, "light"));
+        detail = fmt::format(" (the next takes up to {:.2f} times as long: {}, {})", max.lead,
+                             coverName(max.cover), counted(max.lights, "light"));
     } else if (fastest.size() < layerWays.size()) {
         subject = fmt::format("{} are the fastest, without a significant difference between them,",
                               fmt::join(fastest, " and "));
@@ -104,15 +104,15 @@ std::string outcomeText(const std::vector<const LayerRow*>& rows, std::size_t al
 }
 
 std::string rangeText(const std::vector<std::uint64_t>& values) {
-    const auto [least, most] = std::ranges::minmax(values);
-    return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+    const auto [min, max] = std::ranges::minmax(values);
+    return min == max ? fmt::format("{}", min) : fmt::format("{} to {}", min, max);
 }
 
 std::string registersText(const BenchRow& row) {
     std::vector<std::string> words;
     for (const PassRegisters& pass : row.registers)
         words.push_back(
-            rangeText({static_cast<std::uint64_t>(pass.least), static_cast<std::uint64_t>(pass.most)}));
+            rangeText({static_cast<std::uint64_t>(pass.min), static_cast<std::uint64_t>(pass.max)}));
     return words.empty() ? "-" : fmt::format("{}", fmt::join(words, "; "));
 }
 

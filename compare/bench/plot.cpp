@@ -93,17 +93,17 @@ Plot layersPlot(const Bench& bench) {
 // Passes in order. If there are more than colours, the longest ones and one merged entry.
 std::vector<std::string> passNames(const std::vector<BenchRow>& rows) {
     std::vector<std::string> names;
-    std::map<std::string, double> most;
+    std::map<std::string, double> max;
     for (const BenchRow& row : rows)
         for (const PassTime& pass : row.passes) {
-            if (!most.contains(pass.name)) names.push_back(pass.name);
-            most[pass.name] = std::max(most[pass.name], pass.ms);
+            if (!max.contains(pass.name)) names.push_back(pass.name);
+            max[pass.name] = std::max(max[pass.name], pass.ms);
         }
-    if (names.size() <= mostParts) return names;
+    if (names.size() <= maxParts) return names;
     std::vector<double> times;
-    for (const auto& [name, ms] : most) times.push_back(ms);
+    for (const auto& [name, ms] : max) times.push_back(ms);
     std::ranges::sort(times, std::greater<>());
-    std::erase_if(names, [&](const std::string& name) { return most[name] <= times[mostParts - 1]; });
+    std::erase_if(names, [&](const std::string& name) { return max[name] <= times[maxParts - 1]; });
     names.emplace_back("other passes");
     return names;
 }

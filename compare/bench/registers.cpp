@@ -38,8 +38,8 @@ void addRegisters(std::vector<PassRegisters>& passes, const std::string& pass, d
         passes.push_back({pass, registers, registers});
         return;
     }
-    known->least = std::min(known->least, registers);
-    known->most = std::max(known->most, registers);
+    known->min = std::min(known->min, registers);
+    known->max = std::max(known->max, registers);
 }
 
 RegisterCounter::RegisterCounter(const std::string& choice, const DeviceOptions& drawing)
@@ -70,7 +70,7 @@ void RegisterCounter::count(const Scene& scene, std::span<BenchRow> rows) {
         std::erase_if(requests, [](const PipelineRequest& request) { return !shades(request); });
         row.registers = registersOf(requests);
         for (const PassRegisters& pass : row.registers)
-            row.measured[Measure::registers] = std::fmax(row[Measure::registers], pass.most);
+            row.measured[Measure::registers] = std::fmax(row[Measure::registers], pass.max);
     }
 }
 

@@ -134,14 +134,14 @@ std::string colorDepthOf(const Scene& scene, const TextureSlot& slot) {
 
 // Integers are scaled to [0, 1]; floats are not scaled.
 template <class Texel>
-float leastAlphaOf(const std::vector<Texel>& rgba) {
+float minAlphaOf(const std::vector<Texel>& rgba) {
     constexpr Texel one = std::is_integral_v<Texel> ? std::numeric_limits<Texel>::max() : Texel{1};
-    Texel least = one;
-    for (std::size_t i = 3; i < rgba.size(); i += 4) least = std::min(least, rgba[i]);
-    return static_cast<float>(least) / static_cast<float>(one);
+    Texel min = one;
+    for (std::size_t i = 3; i < rgba.size(); i += 4) min = std::min(min, rgba[i]);
+    return static_cast<float>(min) / static_cast<float>(one);
 }
-float leastAlphaOf(const TextureImage& image) {
-    return std::min({leastAlphaOf(image.rgba), leastAlphaOf(image.rgba16), leastAlphaOf(image.rgba32)});
+float minAlphaOf(const TextureImage& image) {
+    return std::min({minAlphaOf(image.rgba), minAlphaOf(image.rgba16), minAlphaOf(image.rgba32)});
 }
 
 // Whether flat shading differs from smooth shading.
@@ -205,20 +205,20 @@ CheckFeatures featuresOf(const Scene& scene, const Instance& instance, CheckFeat
 // ---- descriptions ------------------------------------------------------------------------------------
 
 // Lower bound of the primitive's alpha over all texels and vertices.
-float CheckSentences::leastAlpha(const Primitive& primitive) {
+float CheckSentences::minAlpha(const Primitive& primitive) {
     const Material& m = materialOf(materials_, primitive);
-    float least = m.base_color.a;
+    float min = m.base_color.a;
     if (!primitive.colors.empty())
-        least *= std::ranges::min(primitive.colors, {}, [](const glm::vec4& c) { return c.a; }).a;
-    if (!readsSlot(m, gpu::SLOT_base_color)) return least;
-    const auto [known, isNew] = least_alpha_.emplace(textureOf(scene_, m.base_color_texture).image, 1.0f);
-    if (isNew) known->second = leastAlphaOf(imageOf(scene_, m.base_color_texture));
-    return least * known->second;
+        min *= std::ranges::min(primitive.colors, {}, [](const glm::vec4& c) { return c.a; }).a;
+    if (!readsSlot(m, gpu::SLOT_base_color)) return min;
+    const auto [known, isNew] = min_alpha_.emplace(textureOf(scene_, m.base_color_texture).image, 1.0f);
+    if (isNew) known->second = minAlphaOf(imageOf(scene_, m.base_color_texture));
+    return min * known->second;
 }
 
 std::string CheckSentences::ofMask(const Primitive& primitive) {
     const float cutoff = materialOf(materials_, primitive).alpha_cutoff;
-    return leastAlpha(primitive) >= cutoff
+    return minAlpha(primitive) >= cutoff
                ? fmt::format("Masked at {:.3g}, but its alpha is nowhere lower: nothing is cut out.", cutoff)
                : fmt::format(
                      "The cut-out follows the outline in the texture (alpha {:.3g}); the background shows "
@@ -228,7 +228,7 @@ std::string CheckSentences::ofMask(const Primitive& primitive) {
 
 std::string CheckSentences::ofBlending(const Primitive& primitive) {
     const Material& m = materialOf(materials_, primitive);
-    return leastAlpha(primitive) >= 1 && !transmits(m)
+    return minAlpha(primitive) >= 1 && !transmits(m)
                ? "Blended, but its alpha is 1 everywhere: nothing behind it shows through."
                : "Transparent: surfaces behind it show through, more where its alpha is lower.";
 }

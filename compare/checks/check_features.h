@@ -74,7 +74,7 @@ public:
     std::string of(const Instance& instance, CheckFeature feature);
 
 private:
-    float leastAlpha(const Primitive& primitive);
+    float minAlpha(const Primitive& primitive);
     std::string ofMask(const Primitive& primitive);
     std::string ofBlending(const Primitive& primitive);
     std::string ofTransmission(const Primitive& primitive);
@@ -82,7 +82,7 @@ private:
 
     const Scene& scene_;
     const std::vector<Material>& materials_;
-    std::map<int, float> least_alpha_;  // key: image; cached
+    std::map<int, float> min_alpha_;  // key: image; cached
 };
 
 }  // namespace diptych

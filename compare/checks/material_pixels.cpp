@@ -75,8 +75,8 @@ MaterialPixels::MaterialPixels(const Image& ids, const Image* positions)
             first_.push_back(entries_.size());
             entries_.insert(entries_.end(), here.begin(), here.end());
             if (here.empty()) continue;
-            const auto most = static_cast<std::size_t>(here.back().material) + 1;
-            if (extents_.size() < most) extents_.resize(most);
+            const auto max = static_cast<std::size_t>(here.back().material) + 1;
+            if (extents_.size() < max) extents_.resize(max);
             for (const Entry& entry : here)
                 include(extents_[static_cast<std::size_t>(entry.material)], entry.seen.box);
         }

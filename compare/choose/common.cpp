@@ -12,8 +12,8 @@ namespace diptych::choose {
 
 namespace {
 
-constexpr std::size_t mostFinalists = 6;  // in the race, the fastest by earlier times
-constexpr int raceRounds = 4;             // each renders every finalist twice in each scene
+constexpr std::size_t maxFinalists = 6;  // in the race, the fastest by earlier times
+constexpr int raceRounds = 4;            // each renders every finalist twice in each scene
 
 Settings withoutCamera(Settings settings) {
     settings.camera.clear();
@@ -112,7 +112,7 @@ private:
         std::ranges::stable_sort(proposals, {}, [](const Proposal& proposal) {
             return std::pair(proposal.tier, std::numeric_limits<std::size_t>::max() - proposal.scenes.size());
         });
-        const std::size_t taken = std::min(proposals.size(), options_.most_candidates);
+        const std::size_t taken = std::min(proposals.size(), options_.max_candidates);
         found_.left_out = proposals.size() - taken;
         for (std::size_t i = 0; i < taken; ++i)
             all().push_back({.settings = proposals[i].settings,
@@ -187,13 +187,13 @@ private:
     // there are too many.
     std::vector<std::size_t> finalistsOf(std::vector<std::size_t> fit) {
         if (!budget_.isForSpeed()) {
-            double least = std::numeric_limits<double>::infinity();
-            for (const std::size_t i : fit) least = std::min(least, worstError(i));
-            std::erase_if(fit, [&](std::size_t i) { return worstError(i) > least * alikeErrors; });
+            double min = std::numeric_limits<double>::infinity();
+            for (const std::size_t i : fit) min = std::min(min, worstError(i));
+            std::erase_if(fit, [&](std::size_t i) { return worstError(i) > min * alikeErrors; });
         }
-        if (fit.size() > mostFinalists && !timed_) timeAll(fit);
+        if (fit.size() > maxFinalists && !timed_) timeAll(fit);
         std::ranges::stable_sort(fit, {}, [&](std::size_t i) { return sumOfLogs(i); });
-        if (fit.size() > mostFinalists) fit.erase(fit.begin() + mostFinalists, fit.end());
+        if (fit.size() > maxFinalists) fit.erase(fit.begin() + maxFinalists, fit.end());
         return fit;
     }
 

@@ -19,7 +19,7 @@ namespace diptych::choose {
 struct CommonOptions {
     Budget budget;  // for every scene
     // Maximum candidates; those that most scenes propose come first.
-    std::size_t most_candidates = 16;
+    std::size_t max_candidates = 16;
     // Called before each long step with its description and the fraction done, approximate.
     std::function<void(double, std::string_view)> progress = {};
 };

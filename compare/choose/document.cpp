@@ -137,8 +137,8 @@ std::string sensitivityText(const PropertySensitivity& sensitivity, const Sensit
                             at->other_above ? "above" : "below", numberText(at->value), numberText(at->low),
                             numberText(at->high), at->extrapolated ? "extrapolated" : "interpolated");
     else
-        text += fmt::format("no value between {} and {} reverses the choice{}", numberText(property.least),
-                            numberText(property.most),
+        text += fmt::format("no value between {} and {} reverses the choice{}", numberText(property.min),
+                            numberText(property.max),
                             sensitivity.open ? fmt::format(" significantly; a value between {} and {} may",
                                                            numberText(sensitivity.open->first),
                                                            numberText(sensitivity.open->second))
@@ -258,10 +258,10 @@ std::string plotOf(const ChoiceReport& report, PlotPlace place) {
     const std::string_view metric = titleOf(report.budget.metric);
     PlotPanel panel{.across = {"time of a frame, ms"},
                     .up = {fmt::format("{} against the reference", metric)}};
-    if (const auto& most = report.budget.error)
-        panel.limits.push_back({.y = most, .name = fmt::format("at most {:.4g}", *most)});
-    if (const auto& most = report.budget.ms)
-        panel.limits.push_back({.x = most, .name = fmt::format("at most {:.4g} ms", *most)});
+    if (const auto& max = report.budget.error)
+        panel.limits.push_back({.y = max, .name = fmt::format("at most {:.4g}", *max)});
+    if (const auto& max = report.budget.ms)
+        panel.limits.push_back({.x = max, .name = fmt::format("at most {:.4g} ms", *max)});
     std::string interval;
     std::vector<experiment::TimeError> points;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) {

@@ -51,7 +51,7 @@ Json propertyJson(const PropertySensitivity& sensitivity) {
               {"how", property.how},
               {"times", arrayOf(sensitivity.times, timeJson)}};
     json["open"] = orNull(sensitivity.open);
-    if (!property.few_values) json["looked_at"] = {property.least, property.most};
+    if (!property.few_values) json["looked_at"] = {property.min, property.max};
     if (!property.not_varied.empty()) json["not_varied"] = property.not_varied;
     json["crossing"] = Json();
     if (const auto& at = sensitivity.break_even)

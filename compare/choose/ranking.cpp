@@ -12,15 +12,15 @@ namespace diptych::choose {
 using experiment::meanDifference;
 using experiment::meanOf;
 
-Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int least, int most) {
+Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int min, int max) {
     Ranking result;
     std::vector<std::size_t> running(finalists);
     std::iota(running.begin(), running.end(), std::size_t{0});
     std::vector<std::vector<double>> rounds(finalists);  // log of the geometric mean of both draws
     int done = 0;
-    while (done < most) {
+    while (done < max) {
         std::vector<std::size_t> order;
-        const int until = std::max(done + 1, least);
+        const int until = std::max(done + 1, min);
         for (int round = done; round < until; ++round) {
             order.insert(order.end(), running.begin(), running.end());
             order.insert(order.end(), running.rbegin(), running.rend());

@@ -248,8 +248,8 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
     experiment::SceneEvaluator evaluator(loaded.renderer, references, question_.budget.metric, drawing);
     const Candidate& chosen = report.choice.candidates[*report.choice.chosen];
     const double error = evaluator.evaluate(chosen.settings)[question_.budget.metric];
-    const double most = report.budget.error ? *report.budget.error : 1.5 * chosen[report.budget.metric];
-    return {page::cameraTitle(references.frames.front()), error, error <= most};
+    const double max = report.budget.error ? *report.budget.error : 1.5 * chosen[report.budget.metric];
+    return {page::cameraTitle(references.frames.front()), error, error <= max};
 }
 
 CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports) {

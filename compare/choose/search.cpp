@@ -16,7 +16,7 @@ constexpr std::size_t timedTogether = 4;
 // Smaller changes of the device's speed, in log time, are noise.
 constexpr double worthShifting = 0.15;
 // Candidates per step around the best, and unsuccessful ones after which the search stops.
-constexpr std::size_t triedTogether = 3, mostInVain = 6;
+constexpr std::size_t triedTogether = 3, maxInVain = 6;
 // Predictions sum noisy effects: candidates predicted worse than needed by these factors are still tried.
 constexpr double timeSlack = 1.2, budgetSlack = 1.1;
 // Slower candidates, relative to the best, are not judged after their two frames.
@@ -118,18 +118,18 @@ private:
             time(together, 0);
             for (const std::size_t i : together) {
                 const bool is_first = firsts_.emplace(all_[i].settings.path, i).second;
-                if (!is_first && budget_.isForSpeed() && all_[i].ms() > hopeless * leastFitting()) continue;
+                if (!is_first && budget_.isForSpeed() && all_[i].ms() > hopeless * minFitting()) continue;
                 evaluate(i);
             }
         }
         // If nothing fits yet, judge slow candidates as well.
-        for (std::size_t i = 0; i < all_.size() && !std::isfinite(leastFitting()); ++i) evaluate(i);
+        for (std::size_t i = 0; i < all_.size() && !std::isfinite(minFitting()); ++i) evaluate(i);
     }
-    double leastFitting() const {
-        double least = std::numeric_limits<double>::infinity();
+    double minFitting() const {
+        double min = std::numeric_limits<double>::infinity();
         for (const Candidate& each : all_)
-            if (each.isEvaluated() && missOf(each.measured, budget_) <= 0) least = std::min(least, each.ms());
-        return least;
+            if (each.isEvaluated() && missOf(each.measured, budget_) <= 0) min = std::min(min, each.ms());
+        return min;
     }
 
     Effect measured(std::size_t i) const {
@@ -246,7 +246,7 @@ private:
 
     void improve(Path path) {
         std::size_t in_vain = 0;
-        while (in_vain < mostInVain) {
+        while (in_vain < maxInVain) {
             const std::size_t best = bestOf(path);
             std::size_t of_all = best;
             for (const auto& [other, first] : firsts_)

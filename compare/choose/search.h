@@ -37,7 +37,7 @@ std::vector<Change> changesBetween(const Settings& from, const Settings& to);
 // What a choice measures first (table.cpp): each path's first candidate and those that differ from it in one
 // usual change; all candidates if they are few. `candidates`: each path's first comes before its others.
 std::vector<Settings> tableOf(std::span<const Settings> candidates);
-inline constexpr std::size_t mostInTable = 24;
+inline constexpr std::size_t maxInTable = 24;
 
 struct Budget {
     Measure metric = Measure::flip;  // the error's

@@ -55,10 +55,10 @@ struct Lines {
 };
 
 // Geometric steps. A range from 0 starts with a step to 1e-5 of `most`.
-double stepped(double least, double most, int step) {
-    if (least <= 0 && step == 0) return 0;
-    const double from = least > 0 ? least : 1e-5 * most, part = static_cast<double>(step) / rangeSteps;
-    return from * std::pow(most / from, part);
+double stepped(double min, double max, int step) {
+    if (min <= 0 && step == 0) return 0;
+    const double from = min > 0 ? min : 1e-5 * max, part = static_cast<double>(step) / rangeSteps;
+    return from * std::pow(max / from, part);
 }
 
 double farOff(double a, double b) {
@@ -69,13 +69,13 @@ double farOff(double a, double b) {
 // its interval reaches an end of that range. Between two measured values, the half-widths are weighted
 // like the values and added as independent errors; the interval of the break-even point is then Fieller's
 // (1954).
-std::optional<BreakEvenPoint> breakEvenOf(std::span<const TimedValue> times, double value, double least,
-                                          double most) {
+std::optional<BreakEvenPoint> breakEvenOf(std::span<const TimedValue> times, double value, double min,
+                                          double max) {
     if (times.size() < 2) return {};
     const Lines lines{times};
     std::optional<BreakEvenPoint> nearest;
     for (int step = 0; step < rangeSteps; ++step) {
-        double low = stepped(least, most, step), high = stepped(least, most, step + 1);
+        double low = stepped(min, max, step), high = stepped(min, max, step + 1);
         const double before = lines.at(low).first, after = lines.at(high).first;
         if ((before < 0) == (after < 0)) continue;
         for (int i = 0; i < 60; ++i) {
@@ -88,10 +88,10 @@ std::optional<BreakEvenPoint> breakEvenOf(std::span<const TimedValue> times, dou
         break_even.other_above = after < 0;
         // Widen to the steps at which the lines are significant again.
         int down = step, up = step + 1;
-        while (down > 0 && lines.isOpen(stepped(least, most, down))) --down;
-        while (up < rangeSteps && lines.isOpen(stepped(least, most, up))) ++up;
-        break_even.low = stepped(least, most, down);
-        break_even.high = stepped(least, most, up);
+        while (down > 0 && lines.isOpen(stepped(min, max, down))) --down;
+        while (up < rangeSteps && lines.isOpen(stepped(min, max, up))) ++up;
+        break_even.low = stepped(min, max, down);
+        break_even.high = stepped(min, max, up);
         if (down == 0 || up == rangeSteps) continue;
         nearest = break_even;
     }
@@ -138,10 +138,10 @@ Sensitivities analyzeSensitivity(const DrawInOrder& asIs, std::vector<Property> 
                     sensitivity.reversed_at = at.value;
         } else if (sensitivity.times.size() > 1) {
             sensitivity.break_even =
-                breakEvenOf(sensitivity.times, property.value, property.least, property.most);
+                breakEvenOf(sensitivity.times, property.value, property.min, property.max);
             const Lines lines{sensitivity.times};
             for (int step = 0; step <= rangeSteps && !sensitivity.break_even; ++step) {
-                const double value = stepped(property.least, property.most, step);
+                const double value = stepped(property.min, property.max, step);
                 if (!lines.isOpen(value)) continue;
                 if (!sensitivity.open) sensitivity.open = {value, value};
                 sensitivity.open->second = value;

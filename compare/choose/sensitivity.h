@@ -33,7 +33,7 @@ struct Property {
     double value = 0;  // of the original scene
     // Range to search for a break-even point. Not used with few values, such as samples per pixel: these
     // report the measurements only.
-    double least = 0, most = 0;
+    double min = 0, max = 0;
     bool few_values = false;
     std::vector<std::function<Variation()>> others{};  // created when timed
     std::string not_varied{};                          // reason for no variation

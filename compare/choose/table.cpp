@@ -54,7 +54,7 @@ std::vector<Change> changesBetween(const Settings& from, const Settings& to) {
 }
 
 std::vector<Settings> tableOf(std::span<const Settings> candidates) {
-    if (candidates.size() <= mostInTable) return {candidates.begin(), candidates.end()};
+    if (candidates.size() <= maxInTable) return {candidates.begin(), candidates.end()};
     std::map<Path, const Settings*> firsts;
     std::vector<std::pair<std::ptrdiff_t, const Settings*>> placed;
     for (const Settings& candidate : candidates) {
@@ -65,7 +65,7 @@ std::vector<Settings> tableOf(std::span<const Settings> candidates) {
         if (place <= std::ssize(usualChanges)) placed.emplace_back(place, &candidate);
     }
     std::ranges::stable_sort(placed, {}, &std::pair<std::ptrdiff_t, const Settings*>::first);
-    placed.resize(std::min(placed.size(), mostInTable));
+    placed.resize(std::min(placed.size(), maxInTable));
     std::vector<Settings> table;
     for (const auto& [place, candidate] : placed) table.push_back(*candidate);
     return table;

@@ -167,8 +167,8 @@ private:
                               "one and three copies of every surface are drawn first, just below it, which "
                               "also adds triangles",
                           .value = overdrawOf(here_),
-                          .least = 1,
-                          .most = 32};
+                          .min = 1,
+                          .max = 32};
         if (property.value <= 0)
             property.not_varied = "this device does not count fragments, or no surface is opaque";
         for (const int copies : {1, 3})
@@ -183,8 +183,8 @@ private:
                           .unit = "lights per pixel",
                           .how = "every other light, and two and four copies of each",
                           .value = lightsOf(here_),
-                          .least = 0,
-                          .most = 1024};
+                          .min = 0,
+                          .max = 1024};
         Settings seen = of_.settings[0];
         seen.camera = viewpoints_.frames.front().settings.camera;
         const SceneView& view = of_.views.at(viewRequest(seen));
@@ -206,8 +206,8 @@ private:
                           .unit = "% of the pixels",
                           .how = "all materials opaque, and all blended",
                           .value = 100 * share,
-                          .least = 0,
-                          .most = 100};
+                          .min = 0,
+                          .max = 100};
         const auto vary = [&](bool all, double value) {
             property.others.push_back(withScene([all](const Scene& scene) { return withBlends(scene, all); },
                                                 [value](const VariedScene&) { return value; }));
@@ -223,8 +223,8 @@ private:
                           .unit = now == 1 ? "sample per pixel" : "samples per pixel",
                           .how = "both paths' Settings with this number of samples",
                           .value = static_cast<double>(now),
-                          .least = 1,
-                          .most = 8,
+                          .min = 1,
+                          .max = 8,
                           .few_values = true};
         const std::array<Settings, 2> settings{withSamples(of_.settings[0], other),
                                                withSamples(of_.settings[1], other)};
@@ -243,8 +243,8 @@ private:
                           .unit = count == 1 ? "material" : "materials",
                           .how = "one for all opaque surfaces, and one for each primitive",
                           .value = count,
-                          .least = 1,
-                          .most = 1024};
+                          .min = 1,
+                          .max = 1024};
         const auto valueOf = [](const VariedScene& made) {
             return static_cast<double>(materialsIn(made.views.scene()));
         };
@@ -259,8 +259,8 @@ private:
                           .unit = "triangles drawn",
                           .how = "eight more per triangle, which cover no pixel",
                           .value = trianglesOf(here_),
-                          .least = 1,
-                          .most = 1e8};
+                          .min = 1,
+                          .max = 1e8};
         addMeasured(property, trianglesOf, [](const Scene& scene) { return withEmptyTriangles(scene, 8); });
         return property;
     }
@@ -272,8 +272,8 @@ private:
                           .unit = "pixels",
                           .how = "half and double the width and height",
                           .value = pixels,
-                          .least = 16 * 9,
-                          .most = 7680.0 * 4320};
+                          .min = 16 * 9,
+                          .max = 7680.0 * 4320};
         for (const double factor : {0.5, 2.0}) {
             std::array<Settings, 2> settings = of_.settings;
             for (Settings& each : settings) {

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int mostShards = 16;  // at most, without --shards
+constexpr int maxShards = 16;  // at most, without --shards
 
 struct SubmitLine : OutputGroup {
     std::string engine;                  // "slurm"
@@ -80,7 +80,7 @@ int runSubmit(const SubmitLine& options) {
     job.words = withoutOut(words);
     job.out = fs::absolute(command->out.empty() ? command->folder : command->out).lexically_normal();
     job.shards =
-        options.shards > 0 ? options.shards : static_cast<int>(std::min<std::size_t>(scenes, mostShards));
+        options.shards > 0 ? options.shards : static_cast<int>(std::min<std::size_t>(scenes, maxShards));
     job.at_once = options.at_once;
     job.options = options.options;
     if (options.dry_run) {

@@ -55,7 +55,7 @@ struct ReportedView {
     std::optional<Pixel> pixel;
 };
 
-constexpr int most_side = 65536;  // largest image side, pixels
+constexpr int max_side = 65536;  // largest image side, pixels
 
 bool fails(const Place& of) {
     return of.at("verdict").text() == "fail";
@@ -115,7 +115,7 @@ ReportedView readReport(const ViewLine& options) {
             fail("is not a report of compare, which view needs");
         if (!findDebugMode(view.channel)) channel.at("name").fail("is not a channel");
         if (const Place worst = channel.at("worst_pixel"); worst.json().is_array()) {
-            const int x = worst[0].whole(-1, most_side), y = worst[1].whole(-1, most_side);
+            const int x = worst[0].whole(-1, max_side), y = worst[1].whole(-1, max_side);
             if (x >= 0 && y >= 0) view.pixel = Pixel{x, y};
         }
         return view;

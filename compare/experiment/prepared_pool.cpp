@@ -12,7 +12,7 @@ namespace diptych::experiment {
 namespace {
 
 // Bytes of freed host memory that are kept for the next pipelines (compare/render/MEASURED.md).
-constexpr std::size_t mostFreed = std::size_t{128} << 20;
+constexpr std::size_t maxFreed = std::size_t{128} << 20;
 constexpr std::array first{std::size_t{0}};  // the only frame of a PreparedFrames
 
 }  // namespace
@@ -24,17 +24,17 @@ PreparedFrames& PreparedPool::frame(const Settings& settings) {
         return latest_.back().frames;
     }
     // Expects it to be as large as the one before.
-    keep(mostBytes - std::min(mostBytes, latest_.empty() ? 0 : latest_.back().bytes));
+    keep(maxBytes - std::min(maxBytes, latest_.empty() ? 0 : latest_.back().bytes));
     PreparedFrames frames = renderer_.prepare(std::span(&settings, 1));
     const FrameBytes bytes = frames.described(0).bytes;
     latest_.push_back({settings, std::move(frames), bytes.images + bytes.buffers});
-    keep(mostBytes);
+    keep(maxBytes);
     latest_.back().frames.draw(0);
     std::erase_if(shots_, [&](const Shot& shot) { return shot.settings == settings; });
     shots_.push_back({settings, latest_.back().frames.lit(0), bytes});
-    if (shots_.size() > mostShots) shots_.pop_front();
+    if (shots_.size() > maxShots) shots_.pop_front();
     latest_.back().frames.warmUp(first);
-    if (mallinfo2().fordblks > mostFreed) malloc_trim(0);
+    if (mallinfo2().fordblks > maxFreed) malloc_trim(0);
     return latest_.back().frames;
 }
 
@@ -52,10 +52,10 @@ std::vector<double> PreparedPool::time(std::span<const Settings> frames, std::sp
     return ms;
 }
 
-void PreparedPool::keep(std::uint64_t most) {
+void PreparedPool::keep(std::uint64_t max) {
     std::uint64_t kept = 0;
     for (const Prepared& each : latest_) kept += each.bytes;
-    for (; latest_.size() > 1 && kept > most; latest_.pop_front()) kept -= latest_.front().bytes;
+    for (; latest_.size() > 1 && kept > max; latest_.pop_front()) kept -= latest_.front().bytes;
 }
 
 }  // namespace diptych::experiment

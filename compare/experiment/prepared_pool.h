@@ -19,12 +19,12 @@ struct Shot {
     FrameBytes bytes;
 };
 
-// Keeps the latest frames, up to `mostBytes` of their images and buffers: some four at 640x360. Others are
+// Keeps the latest frames, up to `maxBytes` of their images and buffers: some four at 640x360. Others are
 // prepared again. Keeps more shots than frames.
 class PreparedPool {
 public:
-    static constexpr std::uint64_t mostBytes = std::uint64_t{352} << 20;
-    static constexpr std::size_t mostShots = 16;
+    static constexpr std::uint64_t maxBytes = std::uint64_t{352} << 20;
+    static constexpr std::size_t maxShots = 16;
 
     // The renderer must outlive the object.
     explicit PreparedPool(Renderer& renderer) : renderer_(renderer) {}
@@ -47,7 +47,7 @@ private:
         PreparedFrames frames;
         std::uint64_t bytes;
     };
-    void keep(std::uint64_t most);  // the latest up to that many bytes, at least one
+    void keep(std::uint64_t max);  // the latest up to that many bytes, at least one
 
     Renderer& renderer_;
     std::list<Prepared> latest_;  // the latest last

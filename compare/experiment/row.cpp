@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 using JsonPlace = JsonAt<Json>;
 
 // Upper limit of whole numbers in a row, so that sums of rows stay exact.
-constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
+constexpr std::uint64_t max_counted = std::uint64_t(1) << 48;
 
 double joined(const std::vector<Row>& cameras, Measure measure) {
     double sum = 0, largest = 0;
@@ -62,7 +62,7 @@ void addMeasured(Json& json, const Row& row) {
 
 double numberFrom(const JsonPlace& json, bool whole) {
     if (json.json().is_null()) return std::numeric_limits<double>::infinity();
-    return whole ? static_cast<double>(json.whole<std::uint64_t>(0, most_counted)) : json.number();
+    return whole ? static_cast<double>(json.whole<std::uint64_t>(0, max_counted)) : json.number();
 }
 
 Row measuredFrom(const JsonPlace& json) {

@@ -54,7 +54,7 @@ Reflectors reflectorsOf(const Scene* scene) {
             found.specular = found.specular || material.metallic > 0 || material.specular > 0 ||
                              material.clearcoat > 0 || material.iridescence > 0;
         }
-    if (scene->environment) found.windowed = leastWindow(project(LatLong(*scene->environment))) > 0;
+    if (scene->environment) found.windowed = minWindow(project(LatLong(*scene->environment))) > 0;
     return found;
 }
 

@@ -181,10 +181,10 @@ SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
         for (const auto& [option, values] : grid) product *= static_cast<double>(values.size());
         combinations += product;
     }
-    if (combinations > static_cast<double>(mostCombinations))
+    if (combinations > static_cast<double>(maxCombinations))
         throw std::runtime_error(fmt::format(
             "--grid: {:.4g} combinations, more than the {} of one sweep; split it into several sweeps",
-            combinations, mostCombinations));
+            combinations, maxCombinations));
     SweepBuilder builder(given);
     for (const Grid& grid : grids) addProduct(grid, builder);
     SweepRows sweep = builder.done();

@@ -31,9 +31,9 @@ std::vector<Grid> defaultGrids(const Settings& given);
 
 // Invalid and unsupported combinations become skips. So does a value that its path ignores; the row is
 // rendered without it. Throws std::runtime_error if no row is left or there are more than
-// mostCombinations.
+// maxCombinations.
 SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids);
-inline constexpr std::size_t mostCombinations = 10'000;
+inline constexpr std::size_t maxCombinations = 10'000;
 
 // Moves rows for which `problem` returns a reason, such as an unsupported format, to the skips. Throws
 // std::runtime_error if no row is left.

@@ -38,10 +38,10 @@ Ablation::Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const
             {AblationCause::Kind::setting, 0, std::string(option),
              found != undeclared.end() ? found->shows : fmt::format("{} instead of {}", now, before)});
     }
-    if (causes_.size() > static_cast<std::size_t>(mostCauses))
+    if (causes_.size() > static_cast<std::size_t>(maxCauses))
         throw std::runtime_error(
             fmt::format("{} causes exceed the limit of {}: explain two images with more similar Settings",
-                        causes_.size(), mostCauses));
+                        causes_.size(), maxCauses));
 }
 
 // Describes roughness widened by specular anti-aliasing, and normals changed by skinning.

@@ -34,7 +34,7 @@ struct AblationCause {
 class Ablation {
 public:
     // `undeclared`: undeclared Settings of the test. Throws std::runtime_error, one line, if there are more
-    // than mostCauses causes.
+    // than maxCauses causes.
     Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const Scene& scene,
              std::span<const UndeclaredSetting> undeclared);
 

@@ -96,7 +96,7 @@ std::vector<Convention> nearestConventions(const Settings& said, const Conventio
             effective.push_back(each);
     std::vector<Convention> best;
     Image nearest = plain;
-    double least = trial.distance(plain);
+    double min = trial.distance(plain);
     for (std::size_t subset = 1; subset < std::size_t{1} << effective.size(); ++subset) {
         std::vector<Convention> some;
         for (std::size_t i = 0; i < effective.size(); ++i)
@@ -104,8 +104,8 @@ std::vector<Convention> nearestConventions(const Settings& said, const Conventio
         if (std::ranges::adjacent_find(some, {}, &Convention::option) != some.end()) continue;
         Image image = trial.draw(withConventions(said, some));
         const double distance = trial.distance(image);
-        if (!(distance < least)) continue;
-        least = distance;
+        if (!(distance < min)) continue;
+        min = distance;
         best = std::move(some);
         nearest = std::move(image);
     }
@@ -114,12 +114,12 @@ std::vector<Convention> nearestConventions(const Settings& said, const Conventio
         std::vector<Convention> others = best;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
         Image without = trial.draw(withConventions(said, others));
-        const double gained = trial.distance(without) - least;
+        const double gained = trial.distance(without) - min;
         if (gained > worthHaving * meanOf(errorsOf(nearest, without))) {
             ++i;
             continue;
         }
-        least += gained;
+        min += gained;
         nearest = std::move(without);
         best = std::move(others);
         i = 0;

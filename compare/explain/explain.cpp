@@ -30,7 +30,7 @@ namespace diptych {
 
 namespace {
 
-// Beyond mostExactCauses; each evaluates as many subsets as there are causes.
+// Beyond maxExactCauses; each evaluates as many subsets as there are causes.
 constexpr int sampledOrderCount = 40;
 constexpr double namedPair = 0.05;
 
@@ -102,7 +102,7 @@ struct AblationResults {
 // unexplained remainder and FLIP in `found`.
 AblationResults ablate(Ablation& ablation, const Image& lit, const Stage& progress, Explanation& found) {
     const int count = static_cast<int>(ablation.causes().size());
-    const bool exact = count <= mostExactCauses;
+    const bool exact = count <= maxExactCauses;
     const std::vector<SubsetWeights> subsets =
         exact ? exactWeights(count) : sampledWeights(count, sampledOrderCount, 1);
     AblationResults results;

@@ -78,11 +78,11 @@ std::optional<double> commonFactor(const Image& lit, const Image& expected) {
     for (const float value : expected.data)
         if (std::isfinite(value)) sum += std::abs(double{value}), ++finite;
     if (finite == 0 || !(sum > 0)) return {};
-    const double least = darkest * sum / static_cast<double>(finite);
+    const double min = darkest * sum / static_cast<double>(finite);
     std::vector<double> ratios;
     for (std::size_t i = 0; i < lit.data.size(); ++i) {
         const double a = lit.data[i], b = expected.data[i];
-        if (std::isfinite(a) && std::isfinite(b) && b > least) ratios.push_back(a / b);
+        if (std::isfinite(a) && std::isfinite(b) && b > min) ratios.push_back(a / b);
     }
     if (ratios.empty()) return {};
     const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);

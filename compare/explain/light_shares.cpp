@@ -18,7 +18,7 @@ namespace diptych {
 namespace {
 
 // Limits of lights rendered alone: their number, and the bytes of two images of each.
-constexpr std::size_t mostLightsDrawn = 32, mostLightBytes = std::size_t{1} << 30;
+constexpr std::size_t maxLightsDrawn = 32, maxLightBytes = std::size_t{1} << 30;
 
 // Settings of shadows and of the light from single lights.
 bool isOfLights(std::string_view option) {
@@ -70,9 +70,9 @@ std::vector<std::size_t> lightsOf(std::string_view of, const std::vector<Light>&
 }
 
 constexpr int blockSide = 8;
-constexpr std::size_t mostLightsOfBlock = 3;
-constexpr double leastAccount = 0.05, equalAccounts = 0.02;
-constexpr double mostLeft = 0.1;
+constexpr std::size_t maxLightsOfBlock = 3;
+constexpr double minAccount = 0.05, equalAccounts = 0.02;
+constexpr double maxLeft = 0.1;
 
 double sumOf(const glm::dvec3& c) {
     return c.x + c.y + c.z;
@@ -95,7 +95,7 @@ public:
         const std::vector<glm::dvec3> change = left_;
         const double all = squares();
         std::vector<std::vector<double>> sizes = taken(all);
-        if (how_ == LightChange::factor && squares() > mostLeft * all) {
+        if (how_ == LightChange::factor && squares() > maxLeft * all) {
             left_ = change;
             each_color_ = true;
             sizes = taken(all);
@@ -119,11 +119,11 @@ private:
     // Subtracts lights as long as each accounts for enough. Returns each light's magnitude at each pixel.
     std::vector<std::vector<double>> taken(double all) {
         std::vector<std::vector<double>> sizes(terms_.size(), std::vector<double>(pixels_.size()));
-        for (std::size_t count = 0; all > 0 && count < mostLightsOfBlock; ++count) {
+        for (std::size_t count = 0; all > 0 && count < maxLightsOfBlock; ++count) {
             std::vector<double> accounts(terms_.size());
             for (std::size_t light = 0; light < terms_.size(); ++light) accounts[light] = account(light);
             const auto best = std::ranges::max_element(accounts);
-            if (best == accounts.end() || !(*best >= leastAccount * all)) break;
+            if (best == accounts.end() || !(*best >= minAccount * all)) break;
             std::vector<std::size_t> alike;
             for (std::size_t light = 0; light < accounts.size(); ++light)
                 if (accounts[light] >= (1 - equalAccounts) * *best) alike.push_back(light);
@@ -209,8 +209,8 @@ std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<
     std::vector<std::size_t> places =
         lightsOf(cause.name, lights, std::max(baseline.shadow_lights, test.shadow_lights));
     if (places.empty()) return {};
-    const std::size_t room = mostLightBytes / (2 * 3 * sizeof(float) * map.size()), all = places.size();
-    places.resize(std::min(all, std::clamp<std::size_t>(room, 1, mostLightsDrawn)));
+    const std::size_t room = maxLightBytes / (2 * 3 * sizeof(float) * map.size()), all = places.size();
+    places.resize(std::min(all, std::clamp<std::size_t>(room, 1, maxLightsDrawn)));
     found.lights_drawn = std::max(found.lights_drawn, places.size());
     found.lights_left_out = std::max(found.lights_left_out, all - places.size());
     // Each light's own contribution under some Settings.

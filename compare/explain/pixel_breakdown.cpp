@@ -121,15 +121,15 @@ private:
 
     Tolerance toleranceOf(const DebugMode& mode) const {
         if (const Rule* const rule = ruleFor(query_.rules, mode.name)) {
-            const std::optional<double> most = boundOn(rule->fail, "max");
-            return {most.value_or(std::numeric_limits<double>::infinity()),
-                    most ? rule->because
-                         : rule->origin + " sets no limit for a single pixel: " + conditionText(rule->fail)};
+            const std::optional<double> max = boundOn(rule->fail, "max");
+            return {max.value_or(std::numeric_limits<double>::infinity()),
+                    max ? rule->because
+                        : rule->origin + " sets no limit for a single pixel: " + conditionText(rule->fail)};
         }
         if (isInformative(mode, pair_)) return informativeTolerance(pair_);
         FramePair here{frames_[0], frames_[1], view_.needs, this_one_, query_.device.bitExact()};
         Tolerance tolerance = derivedTolerance(mode, here);
-        if (const auto use = encodingUse(mode, here)) tolerance.max = use->most;
+        if (const auto use = encodingUse(mode, here)) tolerance.max = use->max;
         return tolerance;
     }
 

@@ -33,14 +33,14 @@ double shareWeight(int causes, int size) {
 }
 
 Subset countOfSubsets(int causes) {
-    if (causes < 0 || causes > mostExactCauses)
+    if (causes < 0 || causes > maxExactCauses)
         throw std::invalid_argument("exact shares are of at most 8 causes");
     return Subset{1} << causes;
 }
 
 // The orders of sampledShares(), each followed by its reverse.
 std::vector<std::vector<int>> sampledOrders(int causes, int orders, std::uint64_t seed) {
-    if (causes < 1 || causes > mostCauses || orders < 4 || orders % 2 != 0)
+    if (causes < 1 || causes > maxCauses || orders < 4 || orders % 2 != 0)
         throw std::invalid_argument(
             "shares are sampled of 1 to 31 causes, by 4 orders or more, an even number");
     std::mt19937_64 random(seed);

@@ -16,8 +16,8 @@ using Subset = std::uint32_t;  // a bit per cause, the first is the lowest
 // The effect of swapping the causes of a subset.
 using SubsetValue = std::function<double(Subset)>;
 
-constexpr int mostExactCauses = 8;  // 256 subsets
-constexpr int mostCauses = 31;
+constexpr int maxExactCauses = 8;  // 256 subsets
+constexpr int maxCauses = 31;
 
 struct Shares {
     double all = 0;             // value of all causes minus that of none
@@ -41,13 +41,13 @@ struct SubsetWeights {
 std::vector<SubsetWeights> exactWeights(int causes);
 std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t seed);
 
-// Of every subset. Throws std::invalid_argument beyond mostExactCauses.
+// Of every subset. Throws std::invalid_argument beyond maxExactCauses.
 Shares exactShares(int causes, const SubsetValue& value);
 
 // From `orders` random orders of the causes (Castro, Gomez and Tejada 2009, "Polynomial calculation of the
 // Shapley value based on sampling"). Each order is also used reversed, which cancels much of the
 // deviation, so 2 orders are one sample of the interval. `orders`: even, at least 4. Throws
-// std::invalid_argument otherwise, and beyond mostCauses.
+// std::invalid_argument otherwise, and beyond maxCauses.
 Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint64_t seed);
 
 }  // namespace diptych

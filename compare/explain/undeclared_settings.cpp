@@ -22,11 +22,11 @@ namespace {
 // If the test's lit does not match its Settings, others are tried: an environment rotated by further
 // degrees, as by exchanged axes; environment light, ambient light or haze scaled or removed. A Setting is
 // accepted if it brings lit nearer by at least half of its change. A multiple that no term confirms must
-// also leave less than half of the residual. At most mostBelieved are accepted.
+// also leave less than half of the residual. At most maxBelieved are accepted.
 constexpr std::array triedTurns{90.0f, 180.0f, 270.0f};
 constexpr double believedRest = 0.5;
-constexpr int mostBelieved = 3;
-constexpr double leastBrighter = 0.01;
+constexpr int maxBelieved = 3;
+constexpr double minBrighter = 0.01;
 
 // Whether an image is from another renderer: its Settings are the request, not necessarily what it does.
 bool isForeign(const Frame& frame) {
@@ -43,8 +43,8 @@ public:
         if (sameBits(beyond_[0], beyond_[1])) return {};
         if (isForeign(sides_.frame(1))) findConventions();
         double left = meanOf(errorsOf(beyond_[1], beyond_[0]));
-        for (int believed = 0; believed < mostBelieved && left > 0; ++believed) {
-            double least = left;
+        for (int believed = 0; believed < maxBelieved && left > 0; ++believed) {
+            double min = left;
             std::optional<UndeclaredSetting> best;
             const Image said = comparable(said_, 1);
             for (UndeclaredSetting& tried : triedSettings()) {
@@ -53,14 +53,14 @@ public:
                 if (tried.option == "ambient" && said_.haze && !bringsHazeNearer(tried.settings)) continue;
                 const double changed = meanOf(errorsOf(ours, said));
                 const double residual = distance(ours);
-                if (!(residual < least) || !(left - residual > believedRest * changed) ||
+                if (!(residual < min) || !(left - residual > believedRest * changed) ||
                     (tried.guessed && !(residual < believedRest * left)))
                     continue;
-                least = residual;
+                min = residual;
                 best = std::move(tried);
             }
             if (!best) break;
-            left = least;
+            left = min;
             said_ = best->settings;
             beyond_[1] = beyond(comparable(said_, 1), 1);
             found_.push_back(std::move(*best));
@@ -102,7 +102,7 @@ private:
             Settings none = said_;
             change(none, 0.0f);
             const double factor = known ? *known : brightness(none);
-            if (std::abs(factor - 1) > leastBrighter)
+            if (std::abs(factor - 1) > minBrighter)
                 tryIt(option, multiple(what, factor), !known,
                       [&](Settings& s) { change(s, static_cast<float>(factor)); });
         };
@@ -133,18 +133,18 @@ private:
             adds[i] = double{with.data[i]} - none.data[i];
             if (std::isfinite(adds[i])) sum += std::abs(adds[i]);
         }
-        const double least = 1e-3 * sum / static_cast<double>(adds.size());
+        const double min = 1e-3 * sum / static_cast<double>(adds.size());
         std::vector<double> ratios;
         for (std::size_t i = 0; i < adds.size(); ++i) {
             const double missing =
                 double{std::as_const(beyond_[1]).data[i]} - std::as_const(beyond_[0]).data[i];
-            if (adds[i] > least && std::isfinite(missing)) ratios.push_back(missing / adds[i]);
+            if (adds[i] > min && std::isfinite(missing)) ratios.push_back(missing / adds[i]);
         }
         if (ratios.empty()) return 1;
         const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
         std::ranges::nth_element(ratios, middle);
         const double factor = 1 + *middle;
-        return factor < leastBrighter ? 0.0 : factor;
+        return factor < minBrighter ? 0.0 : factor;
     }
 
     // Ratios of the test's terms to ours, if they are equal everywhere.

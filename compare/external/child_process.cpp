@@ -194,8 +194,8 @@ void keepOnly(int& lifeline, int& report) {
     lifeline = ::dup2(::fcntl(lifeline, F_DUPFD_CLOEXEC, 3), 0);
     report = ::dup2(::fcntl(report, F_DUPFD_CLOEXEC, 3), 1);
     if (::syscall(SYS_close_range, 2u, ~0u, 0u) == 0) return;
-    const auto most = static_cast<int>(std::min(::sysconf(_SC_OPEN_MAX), 65536L));  // before Linux 5.9
-    for (int file = 2; file < most; ++file) ::close(file);
+    const auto max = static_cast<int>(std::min(::sysconf(_SC_OPEN_MAX), 65536L));  // before Linux 5.9
+    for (int file = 2; file < max; ++file) ::close(file);
 }
 
 // The supervisor process. Starts the program, and kills all its processes when it ends, when the lifeline

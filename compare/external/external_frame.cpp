@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 // Linux limit of one argument: MAX_ARG_STRLEN less the terminator.
 constexpr std::size_t longest_argument = 128 * 1024 - 1;
 // Last lines of stderr that become notes.
-constexpr std::size_t most_lines = 10;
+constexpr std::size_t max_lines = 10;
 
 std::vector<std::string> linesOf(const std::string& text) {
     std::vector<std::string> lines;
@@ -184,7 +184,7 @@ Attempt drawExternally(const Renderer& renderer, const Scene& scene, const Scene
         for (const std::string& line : job.notes)
             if (std::ranges::count(frame.notes, line) == 0) frame.notes.push_back(line);
         const std::vector<std::string> lines = linesOf(ended.warned);
-        const std::size_t from = lines.size() > most_lines ? lines.size() - most_lines : 0;
+        const std::size_t from = lines.size() > max_lines ? lines.size() - max_lines : 0;
         for (std::size_t i = from; i < lines.size(); ++i)
             frame.notes.push_back(fmt::format("{} says: {}", renderer.name, lines[i]));
         attempt.frame = std::move(frame);

@@ -36,12 +36,12 @@ std::optional<Mark> markOf(const Image& ids, int material) {
 }
 
 double brightness(const Image& image, int x, int y) {
-    double most = 0;
+    double max = 0;
     for (int c = 0; c < std::min(image.components, 3); ++c) {
         const double value = image.at(x, y, c);
-        if (std::isfinite(value)) most = std::max(most, value);
+        if (std::isfinite(value)) max = std::max(max, value);
     }
-    return most;
+    return max;
 }
 
 // Pixels around `place` with more than half of the maximum, which also works under a tone curve.
@@ -51,14 +51,14 @@ std::optional<Mark> shownAround(const Image& image, const glm::dvec2& place, dou
               right = std::min(image.width, static_cast<int>(corner.x + reach) + 1),
               top = std::max(0, static_cast<int>(corner.y - reach)),
               bottom = std::min(image.height, static_cast<int>(corner.y + reach) + 1);
-    double most = 0;
+    double max = 0;
     for (int y = top; y < bottom; ++y)
-        for (int x = left; x < right; ++x) most = std::max(most, brightness(image, x, y));
-    if (!(most > 1e-6)) return {};
+        for (int x = left; x < right; ++x) max = std::max(max, brightness(image, x, y));
+    if (!(max > 1e-6)) return {};
     Mark mark;
     for (int y = top; y < bottom; ++y)
         for (int x = left; x < right; ++x)
-            if (brightness(image, x, y) > 0.5 * most) {
+            if (brightness(image, x, y) > 0.5 * max) {
                 mark.place += fromMiddle(image, x, y);
                 ++mark.area;
             }
@@ -87,7 +87,7 @@ Line lineThrough(const std::vector<double>& a, const std::vector<double>& b) {
 
 // Refines `guess` from at least `least` marks. Empty if a mark that must be visible is not found.
 std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& image, const Placement& guess) {
-    constexpr std::size_t least = 4;
+    constexpr std::size_t min = 4;
     std::vector<double> told_x, told_y, shown_x, shown_y;
     for (const Mark& mark : marks) {
         const double radius = 1.3 * std::sqrt(mark.area / glm::pi<double>()) * guess.scale.x;
@@ -103,7 +103,7 @@ std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& ima
         shown_x.push_back(shown->place.x);
         shown_y.push_back(shown->place.y);
     }
-    if (told_x.size() < least) return {};
+    if (told_x.size() < min) return {};
     const Line x = lineThrough(told_x, shown_x), y = lineThrough(told_y, shown_y);
     Placement found = guess;
     found.scale = {x.slope, y.slope};
@@ -134,8 +134,8 @@ std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>&
                                                               // positions
                 if (found && (!best || found->residual < best->residual)) best = found;
             }
-    constexpr double most = 1;  // pixels; squares sampled at pixel centres have an error of 0.1
-    return best && best->residual < most ? best : std::nullopt;
+    constexpr double max = 1;  // pixels; squares sampled at pixel centres have an error of 0.1
+    return best && best->residual < max ? best : std::nullopt;
 }
 
 std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& image,

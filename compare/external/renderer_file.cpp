@@ -36,7 +36,7 @@ std::string_view wordOf(const std::pair<std::string_view, E> (&names)[N], E valu
 struct NumberCorrection {
     std::string_view name;
     double InputCorrections::*value;
-    double neutral, least, most;
+    double neutral, min, max;
     std::string_view text;  // {}: the number
 };
 constexpr double largest_factor = 1e6;
@@ -88,7 +88,7 @@ InputCorrections correctionsIn(const nlohmann::json& object, const std::string& 
     const double all = fields.number(light_factor, 1, 0, largest_factor);
     for (const NumberCorrection& row : numbers) {
         const bool ofLights = row.name.ends_with("_factor") && row.name != "environment_factor";
-        corrections.*row.value = fields.number(row.name, ofLights ? all : row.neutral, row.least, row.most);
+        corrections.*row.value = fields.number(row.name, ofLights ? all : row.neutral, row.min, row.max);
     }
     for (const FlagCorrection& row : flags) corrections.*row.value = fields.flag(row.name, false);
     corrections.transfer = oneOf(fields, "transfer", transfers);

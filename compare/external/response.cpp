@@ -12,7 +12,7 @@
 namespace diptych::external {
 namespace {
 
-constexpr double most_off = 0.06;  // natural logarithm; sRGB and gamma 2.2 differ by 0.1 at 0.02
+constexpr double max_off = 0.06;  // natural logarithm; sRGB and gamma 2.2 differ by 0.1 at 0.02
 
 double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -28,10 +28,10 @@ const glm::dmat3 rec2020_from_rec709{
     {0.6274039, 0.0690973, 0.0163914}, {0.3292830, 0.9195404, 0.0880133}, {0.0433131, 0.0113623, 0.8955953}};
 
 double distance(const glm::dmat3& a, const glm::dmat3& b) {
-    double most = 0;
+    double max = 0;
     for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) most = std::max(most, std::abs(a[c][r] - b[c][r]));
-    return most;
+        for (int r = 0; r < 3; ++r) max = std::max(max, std::abs(a[c][r] - b[c][r]));
+    return max;
 }
 
 }  // namespace
@@ -46,12 +46,12 @@ Response::Response(std::vector<RampStep> ramp) {
         cut_off_ = ramp_.back().expected;
     // The step at the limit is clipped already.
     const std::span<const RampStep> sound(ramp_.data(), ramp_.size() - (cut_off_ ? 1 : 0));
-    const auto fits = [&](const auto& decoded, std::size_t most_steps) {
+    const auto fits = [&](const auto& decoded, std::size_t max_steps) {
         std::vector<double> logs;
-        for (const RampStep& step : sound.first(std::min(most_steps, sound.size())))
+        for (const RampStep& step : sound.first(std::min(max_steps, sound.size())))
             logs.push_back(std::log(decoded(step.shown) / step.expected));
         const double middle = medianOf(logs);
-        if (!std::ranges::all_of(logs, [&](double log) { return std::abs(log - middle) < most_off; }))
+        if (!std::ranges::all_of(logs, [&](double log) { return std::abs(log - middle) < max_off; }))
             return false;
         exposure_ = std::exp(middle);
         return true;
@@ -85,13 +85,13 @@ void Response::measurePrimaries(const std::array<glm::dvec3, 3>& columns, double
         for (int r = 0; r < 3; ++r)
             measured[c][r] = straight(columns[static_cast<std::size_t>(c)][r]) / expected;
     primaries_.reset();
-    double least = 0.06;
+    double min = 0.06;
     const std::array candidates{std::pair{Primaries::rec709, glm::dmat3(1.0)},
                                 std::pair{Primaries::display_p3, p3_from_rec709},
                                 std::pair{Primaries::rec2020, rec2020_from_rec709}};
     for (const auto& [primaries, matrix] : candidates)
-        if (const double far = distance(measured, matrix); far < least) {
-            least = far;
+        if (const double far = distance(measured, matrix); far < min) {
+            min = far;
             primaries_ = primaries;
             told_from_shown_ = glm::inverse(matrix);
         }

@@ -25,7 +25,7 @@ constexpr const char* listName = ".plan.json";     // inside it: list of moves
 constexpr const char* oldName = ".old";            // inside it: replaced files, until all moves are done
 
 // Twice the list of a report with 100,000 files of 200 bytes per name.
-constexpr std::size_t mostOfList = std::size_t{64} << 20;
+constexpr std::size_t maxOfList = std::size_t{64} << 20;
 
 // Moves files, and can undo the moves.
 class UndoableMoves {
@@ -111,7 +111,7 @@ std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {
 FileMoves readMoves(const OpenFolder& begun) {
     const nlohmann::json json = [&] {
         try {
-            return parseJson(begun.read(listName, mostOfList));
+            return parseJson(begun.read(listName, maxOfList));
         } catch (const std::runtime_error&) {
             return nlohmann::json();
         }

@@ -54,13 +54,13 @@ GltfFile::GltfFile(const std::string& generator)
 
 std::size_t GltfFile::addPositions(const std::vector<glm::vec3>& positions) {
     const std::size_t accessor = add(positions, "VEC3", 5126);
-    glm::vec3 least = positions.front(), most = least;
+    glm::vec3 min = positions.front(), max = min;
     for (const glm::vec3& position : positions) {
-        least = glm::min(least, position);
-        most = glm::max(most, position);
+        min = glm::min(min, position);
+        max = glm::max(max, position);
     }
-    json["accessors"][accessor]["min"] = {least.x, least.y, least.z};
-    json["accessors"][accessor]["max"] = {most.x, most.y, most.z};
+    json["accessors"][accessor]["min"] = {min.x, min.y, min.z};
+    json["accessors"][accessor]["max"] = {max.x, max.y, max.z};
     return accessor;
 }
 

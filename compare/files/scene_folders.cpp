@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // About half a million scenes.
-constexpr std::uint64_t most_list_bytes = std::uint64_t(64) << 20;
+constexpr std::uint64_t max_list_bytes = std::uint64_t(64) << 20;
 constexpr std::size_t longest_line = 4096;  // PATH_MAX
 
 bool isSceneFile(const fs::path& file) {
@@ -162,7 +162,7 @@ private:
         if (!open_.insert(identity).second)
             throw std::runtime_error(fmt::format("@{}: is a list that contains itself", oneLine(name)));
         std::istringstream stream(
-            diptych::named("@" + oneLine(name), [&] { return textIn(name, most_list_bytes); }));
+            diptych::named("@" + oneLine(name), [&] { return textIn(name, max_list_bytes); }));
         const std::size_t before = scenes.size();
         bool any = false;
         for (std::string line; std::getline(stream, line);) {

@@ -102,12 +102,12 @@ std::uint64_t nonfinitePixels(const Image& image) {
 
 std::optional<std::string> overflowText(const Image& lit, LitFormat format) {
     if (format == LitFormat::fp32) return {};
-    const std::array<float, 3> most = format == LitFormat::fp16 ? std::array{65504.0f, 65504.0f, 65504.0f}
-                                                                : std::array{65024.0f, 65024.0f, 64512.0f};
+    const std::array<float, 3> max = format == LitFormat::fp16 ? std::array{65504.0f, 65504.0f, 65504.0f}
+                                                               : std::array{65024.0f, 65024.0f, 64512.0f};
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < lit.pixels(); ++i) {
         const float* const p = lit.pixel(i);
-        count += p[0] >= most[0] || p[1] >= most[1] || p[2] >= most[2];
+        count += p[0] >= max[0] || p[1] >= max[1] || p[2] >= max[2];
     }
     if (count == 0) return {};
     return fmt::format("lit: clamped to the range of {} at {}; use --lit-format fp32", nameOf(format),
@@ -117,13 +117,13 @@ std::optional<std::string> overflowText(const Image& lit, LitFormat format) {
 std::vector<std::uint32_t> repairNonfinite(Image& image) {
     std::vector<std::uint32_t> repaired;
     if (nonfinitePixels(image) == 0) return repaired;
-    constexpr float most = std::numeric_limits<float>::max();
+    constexpr float max = std::numeric_limits<float>::max();
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         float* const p = image.pixel(i);
         if (std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); })) continue;
         repaired.push_back(static_cast<std::uint32_t>(i));
         for (int c = 0; c < image.components; ++c)
-            if (!std::isfinite(p[c])) p[c] = std::isnan(p[c]) ? 0.0f : std::copysign(most, p[c]);
+            if (!std::isfinite(p[c])) p[c] = std::isnan(p[c]) ? 0.0f : std::copysign(max, p[c]);
     }
     return repaired;
 }

@@ -115,8 +115,8 @@ double srgbFromLinear(double linear) {
 
 std::array<float, 3> pbrNeutral(std::array<float, 3> rgb) {
     constexpr float f90 = 0.04f, start = 0.8f - f90, desaturation = 0.15f;
-    const float least = std::min({rgb[0], rgb[1], rgb[2]});
-    const float offset = least < 2 * f90 ? least - least * least / (4 * f90) : f90;
+    const float min = std::min({rgb[0], rgb[1], rgb[2]});
+    const float offset = min < 2 * f90 ? min - min * min / (4 * f90) : f90;
     for (float& c : rgb) c -= offset;
     const float peak = std::max({rgb[0], rgb[1], rgb[2]});
     if (peak < start) return rgb;

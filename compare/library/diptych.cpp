@@ -76,10 +76,10 @@ Result compare(const Picture& reference, const Picture& test, const Options& opt
     result.passed = result.passed && measurement.plain().nonfinite_different == 0;
     const Image& error = measurement.flip()->error;
     result.flip.assign(error.data.begin(), error.data.end());
-    float most = 0;
+    float max = 0;
     for (std::size_t i = 0; i < result.flip.size(); ++i)
-        if (coverage.covered[i] && result.flip[i] > most) {
-            most = result.flip[i];
+        if (coverage.covered[i] && result.flip[i] > max) {
+            max = result.flip[i];
             result.worst_x = static_cast<int>(i % static_cast<std::size_t>(a.width));
             result.worst_y = static_cast<int>(i / static_cast<std::size_t>(a.width));
         }

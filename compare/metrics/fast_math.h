@@ -43,10 +43,10 @@ inline float exp2(float x) {
 // x^p for x >= 0 and p in [0, 3], if the result is a normal float; exactly 0 if x is below the least
 // normal float. Relative error at most 3e-7 + 1.2e-7 p |log2 x|: below 1e-6 for x in [1e-3, 1].
 inline float pow(float x, float p) {
-    constexpr float least = 0x1p-126f;
-    const float exponent = p * fast::log2(x < least ? least : x);
+    constexpr float min = 0x1p-126f;
+    const float exponent = p * fast::log2(x < min ? min : x);
     const float power = fast::exp2(exponent < -126.0f ? -126.0f : exponent);
-    return x < least ? 0.0f : power;
+    return x < min ? 0.0f : power;
 }
 
 }  // namespace diptych::fast

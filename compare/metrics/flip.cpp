@@ -25,7 +25,7 @@ namespace {
 using metrics::finite;
 using metrics::size;
 
-constexpr double mostStops = 126;  // 2^126 is a float
+constexpr double maxStops = 126;  // 2^126 is a float
 
 // Two NaNs are equal, and so are equal infinities.
 bool same(const float* a, const float* b) {
@@ -33,8 +33,8 @@ bool same(const float* a, const float* b) {
         if (a[c] != b[c] && !(std::isnan(a[c]) && std::isnan(b[c]))) return false;
     return true;
 }
-bool within(const float* p, float least, float most) {
-    return std::min({p[0], p[1], p[2]}) >= least && std::max({p[0], p[1], p[2]}) <= most;
+bool within(const float* p, float min, float max) {
+    return std::min({p[0], p[1], p[2]}) >= min && std::max({p[0], p[1], p[2]}) <= max;
 }
 
 void checkPair(const ImageRows& reference, const ImageRows& test, const FlipOptions& options) {
@@ -110,9 +110,9 @@ void pool(const FlipPair& pair, std::span<const std::uint8_t> covered, FlipResul
 }
 
 double checkedExposure(double stops) {
-    if (!(std::abs(stops) <= mostStops))
+    if (!(std::abs(stops) <= maxStops))
         throw std::runtime_error(fmt::format("exposure {}: float32 has 2^{} to 2^{}; give stops in between",
-                                             stops, -mostStops, mostStops));
+                                             stops, -maxStops, maxStops));
     return stops;
 }
 
@@ -170,24 +170,23 @@ struct Beyond {
 // Sets the errors of different pixels that FLIP cannot see. `looks`: as for flipErrorMap().
 void evaluateUnseen(const FlipPair& pair, const std::vector<FlipLook>& looks, FlipResult& result) {
     const Beyond beyond(looks);
-    const float most = looks.empty() ? 1 : std::numeric_limits<float>::max();
+    const float max = looks.empty() ? 1 : std::numeric_limits<float>::max();
     const auto isUnseen = [&](const float* r, const float* t) {
         if (!finite(r, 3) || !finite(t, 3) || same(r, t)) return false;
-        if (!within(r, 0, most) || !within(t, 0, most)) return true;
+        if (!within(r, 0, max) || !within(t, 0, max)) return true;
         for (int c = 0; c < 3; ++c)
             if (r[c] != t[c] && !beyond(r[c], t[c])) return false;
         return true;
     };
     std::once_flag measured;
-    double least = 0;
+    double min = 0;
     std::atomic<std::uint64_t> different = 0;
     tbb::parallel_for(tbb::blocked_range<int>(0, pair.reference.height, 32), [&](const auto& rows) {
         eachPair(pair.reference, pair.test, rows.begin(), rows.end(),
                  [&](std::size_t i, const float* r, const float* t) {
                      if (!isUnseen(r, t)) return;
-                     std::call_once(measured,
-                                    [&] { least = 1e-3 * luminances(pair.reference, false).mean(); });
-                     const bool differs = metrics::distance(r, t, 3) > least;
+                     std::call_once(measured, [&] { min = 1e-3 * luminances(pair.reference, false).mean(); });
+                     const bool differs = metrics::distance(r, t, 3) > min;
                      result.error.data[i] = differs ? 1.0f : 0.0f;
                      different += differs;
                  });
@@ -204,12 +203,12 @@ double pixelsPerDegree(double distance, double width, int pixels) {
 ExposureRange exposureRange(const ImageRows& reference, ToneMapper mapper) {
     constexpr std::array shares{1.0, 0.5};
     const std::vector<float> ranks = luminances(reference, false).nearestRanks(shares);
-    const float most = ranks[0];
-    if (!(most > 0)) return {};
+    const float max = ranks[0];
+    if (!(max > 0)) return {};
     const float median = ranks[1] > 0 ? ranks[1] : luminances(reference, true).nearestRank(0.5);
     const double bright = whereCurveReaches(mapper, 0.85);
-    return {std::clamp(std::log2(bright / most), -mostStops, mostStops),
-            std::clamp(std::log2(bright / median), -mostStops, mostStops)};
+    return {std::clamp(std::log2(bright / max), -maxStops, maxStops),
+            std::clamp(std::log2(bright / median), -maxStops, maxStops)};
 }
 
 FlipResult ldrFlip(const ImageRows& reference, const ImageRows& test, const FlipOptions& options) {
@@ -228,17 +227,17 @@ HdrFlipResult hdrFlip(const ImageRows& reference, const ImageRows& test, const H
 }
 
 struct HdrFlipAgainst::State {
-    State(const ImageRows& r, const HdrFlipOptions& o, std::size_t most_bytes) : reference(r), options(o) {
+    State(const ImageRows& r, const HdrFlipOptions& o, std::size_t max_bytes) : reference(r), options(o) {
         checkPair(r, r, o);
         chooseExposures(r, o, begun);
         const double step =
             begun.exposures > 1 ? (begun.stop_exposure - begun.start_exposure) / (begun.exposures - 1) : 0;
         for (int i = 0; i < begun.exposures; ++i)
             looks.push_back({static_cast<float>(std::exp2(begun.start_exposure + i * step)), o.tone_mapper});
-        if (most_bytes == 0) return;
+        if (max_bytes == 0) return;
         FlipResult found;
         const FlipPair itself = inspect(r, r, found);
-        kept.emplace(r, itself.holes, filters, looks, most_bytes);
+        kept.emplace(r, itself.holes, filters, looks, max_bytes);
     }
 
     // Computes only the error map; returns the pair.
@@ -264,8 +263,8 @@ struct HdrFlipAgainst::State {
 };
 
 HdrFlipAgainst::HdrFlipAgainst(const ImageRows& reference, const HdrFlipOptions& options,
-                               std::size_t most_bytes)
-    : state_(std::make_unique<const State>(reference, options, most_bytes)) {}
+                               std::size_t max_bytes)
+    : state_(std::make_unique<const State>(reference, options, max_bytes)) {}
 HdrFlipAgainst::~HdrFlipAgainst() = default;
 
 HdrFlipResult HdrFlipAgainst::operator()(const ImageRows& test) const {

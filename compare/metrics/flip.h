@@ -70,9 +70,9 @@ HdrFlipResult hdrFlip(const ImageRows& reference, const ImageRows& test, const H
 class HdrFlipAgainst {
 public:
     // The reference and options.covered must outlive it. Caches 20 bytes per pixel and exposure, up to
-    // `most_bytes`; the rest is recomputed for each test. Throws as hdrFlip() does.
+    // `max_bytes`; the rest is recomputed for each test. Throws as hdrFlip() does.
     HdrFlipAgainst(const ImageRows& reference, const HdrFlipOptions& options,
-                   std::size_t most_bytes = std::size_t{256} << 20);
+                   std::size_t max_bytes = std::size_t{256} << 20);
     ~HdrFlipAgainst();
 
     HdrFlipResult operator()(const ImageRows& test) const;

@@ -148,9 +148,9 @@ DIPTYCH_WIDE_LANES void errorsOfComparable(float* __restrict out, const Comparab
 }
 
 // Clamps x to [0, `most`]: above it every curve exceeds 1, and squares might overflow.
-inline float limited(float x, float most) {
+inline float limited(float x, float max) {
     x = x < 0 ? 0.0f : x;
-    return x > most ? most : x;
+    return x > max ? max : x;
 }
 
 inline float onCurve(const ToneCurve& k, float x) {

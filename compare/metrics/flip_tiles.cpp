@@ -242,11 +242,11 @@ void TileRows::filter(FilteredImage& filtered_image, int y) {
 // pixels. The feature detectors, whose weights add up to 0, treat a hole as the filtered luminance at the
 // evaluated pixel.
 void TileRows::withoutHoles(const FilteredRow& row, const FilteredRow& weights) const {
-    constexpr float least = 1e-30f;  // for a hole among holes, whose error is set elsewhere
+    constexpr float min = 1e-30f;  // for a hole among holes, whose error is set elsewhere
     for (int i = 0; i < tile_.width(); ++i) {
-        row.y[i] /= std::max(weights.y[i], least);
-        row.cx[i] /= std::max(weights.cx[i], least);
-        row.cz[i] /= std::max(weights.cz[i], least);
+        row.y[i] /= std::max(weights.y[i], min);
+        row.cx[i] /= std::max(weights.cx[i], min);
+        row.cz[i] /= std::max(weights.cz[i], min);
         row.edge_x[i] -= row.y[i] * weights.edge_x[i];
         row.edge_y[i] -= row.y[i] * weights.edge_y[i];
         row.point_x[i] -= row.y[i] * weights.point_x[i];
@@ -271,8 +271,8 @@ void TileRows::makeErrors(int y, const ReferenceRow& referenceRow) {
 }
 
 // most = max(most, next).
-void keepLargest(const float* next, float* most, int n) {
-    for (int i = 0; i < n; ++i) most[i] = next[i] > most[i] ? next[i] : most[i];
+void keepLargest(const float* next, float* max, int n) {
+    for (int i = 0; i < n; ++i) max[i] = next[i] > max[i] ? next[i] : max[i];
 }
 
 void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& looks, Image& errors,
@@ -293,10 +293,10 @@ void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& l
 
 FilteredReference::FilteredReference(const ImageRows& reference, const std::vector<Hole>& holes,
                                      const FlipFilters& filters, const std::vector<FlipLook>& looks,
-                                     std::size_t most_bytes)
+                                     std::size_t max_bytes)
     : width_(size(reference.width)), height_(size(reference.height)) {
     const std::size_t floats = planes * reference.pixels();
-    looks_.resize(std::min(looks.size(), most_bytes / (floats * sizeof(float))));
+    looks_.resize(std::min(looks.size(), max_bytes / (floats * sizeof(float))));
     for (auto& look : looks_) look.resize(floats);
     const FlipPair pair{reference, reference, holes};
     const std::vector<Tile> tiles = tilesOf(reference);

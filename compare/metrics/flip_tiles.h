@@ -30,12 +30,12 @@ struct FlipLook {
 };
 
 // A reference that is already filtered at some exposures, so that only the tests need filtering. Takes 20
-// bytes per pixel and exposure; caches the first exposures that fit into `most_bytes`.
+// bytes per pixel and exposure; caches the first exposures that fit into `max_bytes`.
 class FilteredReference {
 public:
     // `holes`: W x H or empty; must be those of the pairs that use it.
     FilteredReference(const ImageRows& reference, const std::vector<Hole>& holes, const FlipFilters& filters,
-                      const std::vector<FlipLook>& looks, std::size_t most_bytes);
+                      const std::vector<FlipLook>& looks, std::size_t max_bytes);
     bool keeps(std::size_t look) const { return look < looks_.size(); }
     // Row y from column x on, for a cached look.
     ComparableRow row(std::size_t look, int x, int y) const;

@@ -69,14 +69,14 @@ Image shifted(const Image& reference, const Image& test, int radius) {
         for (int x = 0; x < test.width; ++x) {
             const float* const wanted = &reference.data[reference.offset(x, y)];
             const float* best = &test.data[test.offset(x, y)];
-            double least = distance(best, wanted, test.components);
+            double min = distance(best, wanted, test.components);
             for (const Step& step : steps) {
                 const int sx = x + step.x, sy = y + step.y;
-                if (least == 0 || sx < 0 || sy < 0 || sx >= test.width || sy >= test.height) continue;
+                if (min == 0 || sx < 0 || sy < 0 || sx >= test.width || sy >= test.height) continue;
                 const float* const p = &test.data[test.offset(sx, sy)];
                 const double d = distance(p, wanted, test.components);
-                if (d < least) {
-                    least = d;
+                if (d < min) {
+                    min = d;
                     best = p;
                 }
             }

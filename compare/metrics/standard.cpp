@@ -27,7 +27,7 @@ constexpr int bandHeight = 16;    // rows that one thread sums; bands are added 
 // Sums over one band of rows.
 struct BandSums {
     RowSums components;
-    double angles = 0, mostDegrees = 0, mostLength = 0, peak = 0;
+    double angles = 0, maxDegrees = 0, maxLength = 0, peak = 0;
     std::uint64_t different = 0, infinite = 0, nonfinite_reference = 0, nonfinite_test = 0;
 };
 
@@ -57,8 +57,8 @@ public:
         for (const BandSums& band : bands) {
             total.components.add(band.components);
             total.angles += band.angles;
-            total.mostDegrees = std::max(total.mostDegrees, band.mostDegrees);
-            total.mostLength = std::max(total.mostLength, band.mostLength);
+            total.maxDegrees = std::max(total.maxDegrees, band.maxDegrees);
+            total.maxLength = std::max(total.maxLength, band.maxLength);
             total.peak = std::max(total.peak, band.peak);
             total.different += band.different;
             total.infinite += band.infinite;
@@ -161,8 +161,8 @@ void StandardPass::add(int y, Row& row, BandSums& sums) const {
         if (std::equal(t, t + 3, r)) continue;
         const double degrees = lines_ ? lineAngle(t, r) : angle(t, r);
         sums.angles += degrees;
-        sums.mostDegrees = std::max(sums.mostDegrees, degrees);
-        sums.mostLength = std::max(sums.mostLength, lengthsApart(t, r));
+        sums.maxDegrees = std::max(sums.maxDegrees, degrees);
+        sums.maxLength = std::max(sums.maxLength, lengthsApart(t, r));
     }
 }
 
@@ -195,15 +195,15 @@ void setComponents(const BandSums& sums, double components, Range range, Standar
     m.mae = RowSums::total(s.absolute) / components + beyond;
     m.relative_mse = RowSums::total(s.relative) / components + beyond;
     m.ulp_mean = RowSums::total(s.ulps) / components + beyond;
-    m.ulp_max = s.mostUlps + beyond;
+    m.ulp_max = s.maxUlps + beyond;
     m.peak = range == Range::display ? 1 : sums.peak;
     m.psnr = m.mse > 0 ? 10 * std::log10(m.peak * m.peak / m.mse) : infinity;
 }
 
 void setAngles(const BandSums& sums, StandardMetrics& m) {
     const double beyond = m.nonfinite_different ? infinity : 0;
-    m.angle_max = sums.mostDegrees + beyond;
-    m.length_max = sums.mostLength + beyond;
+    m.angle_max = sums.maxDegrees + beyond;
+    m.length_max = sums.maxLength + beyond;
     m.angle_mean = sums.angles / static_cast<double>(m.pixels) + beyond;
 }
 

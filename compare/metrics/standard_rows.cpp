@@ -20,9 +20,9 @@ inline std::int32_t ordered(float v) {
 }
 
 inline float largest(const float* p, int components) {
-    float most = std::abs(p[0]);
-    for (int c = 1; c < components; ++c) most = std::abs(p[c]) > most ? std::abs(p[c]) : most;
-    return most;
+    float max = std::abs(p[0]);
+    for (int c = 1; c < components; ++c) max = std::abs(p[c]) > max ? std::abs(p[c]) : max;
+    return max;
 }
 
 template <int components>
@@ -31,14 +31,14 @@ void errorsOf(float* __restrict absolute, float* __restrict relative, const floa
     constexpr double longest = std::numeric_limits<float>::max();
     for (int i = 0; i < n; ++i) {
         const float *t = test + components * i, *r = reference + components * i;
-        double most = 0;
+        double max = 0;
         for (int c = 0; c < components; ++c) {
             const double d = std::abs(double{t[c]} - double{r[c]});
-            most = d > most ? d : most;
+            max = d > max ? d : max;
         }
         const double size = largest(r, components), against = size > floor ? size : floor;
-        absolute[i] = static_cast<float>(most < longest ? most : longest);
-        relative[i] = most > 0 ? static_cast<float>(most / against) : 0.0f;
+        absolute[i] = static_cast<float>(max < longest ? max : longest);
+        relative[i] = max > 0 ? static_cast<float>(max / against) : 0.0f;
     }
 }
 
@@ -61,7 +61,7 @@ void RowSums::add(const RowSums& other) {
         relative[i] += other.relative[i];
         ulps[i] += other.ulps[i];
     }
-    mostUlps = std::max(mostUlps, other.mostUlps);
+    maxUlps = std::max(maxUlps, other.maxUlps);
 }
 
 double RowSums::total(const std::array<double, 8>& s) {
@@ -70,7 +70,7 @@ double RowSums::total(const std::array<double, 8>& s) {
 
 DIPTYCH_WIDE_LANES void addRow(RowSums& sums, const float* __restrict test, const float* __restrict reference,
                                int n) {
-    double absolute[lanes]{}, squared[lanes]{}, relative[lanes]{}, ulps[lanes]{}, most[lanes]{};
+    double absolute[lanes]{}, squared[lanes]{}, relative[lanes]{}, ulps[lanes]{}, max[lanes]{};
     const auto add = [&](int l, float t, float r) {
         const double d = double{t} - double{r}, square = d * d;
         const double steps = std::abs(static_cast<double>(ordered(t)) - static_cast<double>(ordered(r)));
@@ -78,7 +78,7 @@ DIPTYCH_WIDE_LANES void addRow(RowSums& sums, const float* __restrict test, cons
         squared[l] += square;
         relative[l] += square / (double{r} * double{r} + 0.01);
         ulps[l] += steps;
-        most[l] = steps > most[l] ? steps : most[l];
+        max[l] = steps > max[l] ? steps : max[l];
     };
     int i = 0;
     for (; i + lanes <= n; i += lanes)
@@ -89,7 +89,7 @@ DIPTYCH_WIDE_LANES void addRow(RowSums& sums, const float* __restrict test, cons
         sums.squared[l] += squared[l];
         sums.relative[l] += relative[l];
         sums.ulps[l] += ulps[l];
-        sums.mostUlps = std::max(sums.mostUlps, most[l]);
+        sums.maxUlps = std::max(sums.maxUlps, max[l]);
     }
 }
 
@@ -107,12 +107,12 @@ void pixelErrors(float* absolute, float* relative, const PixelRow& row, double f
 }
 
 DIPTYCH_WIDE_LANES bool allFinite(const float* values, int n) {
-    std::uint32_t most = 0;
+    std::uint32_t max = 0;
     for (int i = 0; i < n; ++i) {
         const std::uint32_t magnitude = std::bit_cast<std::uint32_t>(values[i]) & 0x7fffffffu;
-        most = magnitude > most ? magnitude : most;
+        max = magnitude > max ? magnitude : max;
     }
-    return most < 0x7f800000u;
+    return max < 0x7f800000u;
 }
 
 DIPTYCH_WIDE_LANES void lumaFromDisplay(float* __restrict out, const float* __restrict rgb, int n) {

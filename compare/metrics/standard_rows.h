@@ -11,7 +11,7 @@ namespace diptych {
 // width.
 struct RowSums {
     std::array<double, 8> absolute{}, squared{}, relative{}, ulps{};
-    double mostUlps = 0;
+    double maxUlps = 0;
     void add(const RowSums& other);
     static double total(const std::array<double, 8>& sums);
 };

@@ -51,10 +51,10 @@ Axis::Axis(const PlotAxis& axis, const std::vector<double>& points, const std::v
     else if (!logarithmic_)
         shown.push_back(0);
     if (shown.empty()) return;
-    const auto [least, most] = std::ranges::minmax(shown);
-    const double margin = logarithmic_ ? std::max(std::pow(most / least, 0.06), 1.08) : 1;
-    low_ = least / margin;
-    high_ = logarithmic_ || most - least > 1e-100 ? most * margin : least + 1;
+    const auto [min, max] = std::ranges::minmax(shown);
+    const double margin = logarithmic_ ? std::max(std::pow(max / min, 0.06), 1.08) : 1;
+    low_ = min / margin;
+    high_ = logarithmic_ || max - min > 1e-100 ? max * margin : min + 1;
 }
 
 double Axis::at(double value) const {

@@ -45,7 +45,7 @@ std::vector<PlotBox> placeLabels(const std::vector<Label>& labels, const std::ve
     std::vector<PlotBox> placed;
     for (const Label& label : labels) {
         PlotBox best{};
-        double least = std::numeric_limits<double>::infinity();
+        double min = std::numeric_limits<double>::infinity();
         for (int distance = 0; distance < distances; ++distance)
             for (std::size_t d = 0; d < directions.size(); ++d) {
                 const PlotBox box = boxOf(label, directions[d], distance, area);
@@ -54,8 +54,8 @@ std::vector<PlotBox> placeLabels(const std::vector<Label>& labels, const std::ve
                 double cost = distance + 0.01 * static_cast<double>(d);
                 for (const PlotBox& other : placed) cost += 1e3 * overlap(box, grown(other)) / room;
                 for (const PlotBox& mark : marks) cost += 10 * overlap(box, mark) / room;
-                if (cost >= least) continue;
-                least = cost;
+                if (cost >= min) continue;
+                min = cost;
                 best = box;
             }
         placed.push_back(best);

@@ -62,7 +62,7 @@ std::string markOf(std::optional<Path> path, double x, double y, double r) {
 }
 
 std::string partClass(const PlotBar& bar) {
-    return bar.beyond ? "part past" : fmt::format("part part{}", std::min(bar.part, mostParts - 1));
+    return bar.beyond ? "part past" : fmt::format("part part{}", std::min(bar.part, maxParts - 1));
 }
 
 const char* limitClass(const PlotLimit& limit) {

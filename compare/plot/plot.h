@@ -44,11 +44,11 @@ struct PlotSeries {
 
 struct PlotBar {
     PlotRange across, up;
-    std::size_t part;  // its colour, below mostParts
+    std::size_t part;  // its colour, below maxParts
     std::string text;
     bool beyond = false;  // in a limit's colour instead
 };
-inline constexpr std::size_t mostParts = 8;  // the last colour is grey
+inline constexpr std::size_t maxParts = 8;  // the last colour is grey
 
 // The extent upwards of a bar at a place, below the place's name.
 constexpr PlotRange barAt(double place) {

@@ -23,7 +23,7 @@ Probe airProbe(const char* name, std::uint32_t function, const char* inputs, con
 // exponential() of air.glsl is accurate to 2e-7 of its value, and uses only sums, products and a floor. If
 // these round up or down instead of to nearest, each errs by twice as much. Its last product, with a power
 // of two, may be a denormal, which Vulkan may flush to 0.
-constexpr double exponential_promise = 4e-7, exponential_flush = least_normal;
+constexpr double exponential_promise = 4e-7, exponential_flush = min_normal;
 
 constexpr auto exact_exp = [](double x) { return std::exp(x); };
 constexpr auto exact_expm1 = [](double x) { return std::expm1(x); };
@@ -84,11 +84,11 @@ Probe alongProbe() {
         out[0] = airByDefinition(double{in[0]}, double{in[1]}, double{in[2]}, double{in[3]});
     };
     follow(p, []<class N>(const N* in, N* out) {
-        const N low = in[0] + least(in[1], N(0.0f)), x = most(size(in[1]) * in[3], N(1e-30f));
-        const N whole = monotoneOf(least(most(-low * in[3], N(-87.0f)), N(60.0f)), exact_exp,
+        const N low = in[0] + min(in[1], N(0.0f)), x = max(size(in[1]) * in[3], N(1e-30f));
+        const N whole = monotoneOf(min(max(-low * in[3], N(-87.0f)), N(60.0f)), exact_exp,
                                    exponential_promise, exponential_flush);
-        const N lost = monotoneOf(-least(x, N(87.0f)), exact_expm1, exponential_promise, exponential_flush);
-        out[0] = least(in[2] * (whole * (-lost / x)), N(gpu::HAZE_OPAQUE_METRES));
+        const N lost = monotoneOf(-min(x, N(87.0f)), exact_expm1, exponential_promise, exponential_flush);
+        out[0] = min(in[2] * (whole * (-lost / x)), N(gpu::HAZE_OPAQUE_METRES));
     });
     return p;
 }
@@ -110,11 +110,10 @@ Probe beyondProbe() {
         out[0] = in[1] > 0 ? std::min(density / (double{in[1]} * double{in[2]}), opaque) : opaque;
     };
     follow(p, []<class N>(const N* in, N* out) {
-        const N whole = monotoneOf(least(most(-in[0] * in[2], N(-87.0f)), N(60.0f)), exact_exp,
+        const N whole = monotoneOf(min(max(-in[0] * in[2], N(-87.0f)), N(60.0f)), exact_exp,
                                    exponential_promise, exponential_flush);
         const N opaque(gpu::HAZE_OPAQUE_METRES);
-        out[0] =
-            chosen(isLess(N(0.0f), in[1]), least(whole / most(in[1] * in[2], N(1e-30f)), opaque), opaque);
+        out[0] = chosen(isLess(N(0.0f), in[1]), min(whole / max(in[1] * in[2], N(1e-30f)), opaque), opaque);
     });
     return p;
 }
@@ -143,7 +142,7 @@ Probe hazeProbe() {
         in[23] = static_cast<float>(1e-3 * std::exp2(static_cast<double>(row % 64) * 36.5 / 63));
     };
     p.step = [](const float*, std::size_t, double expected) {
-        return expected < least_normal ? 0 : ulpOf(expected);
+        return expected < min_normal ? 0 : ulpOf(expected);
     };
     // Beer-Lambert, Rayleigh's phase function, and that of Cornette and Shanks 1992, by the angle.
     p.definition = [](const float* in, double* out) {
@@ -163,7 +162,7 @@ Probe hazeProbe() {
         const N d2 = dot(apart, apart), cosine = one - N(0.5f) * d2, k = in[11] + in[15] * d2;
         const N both = one + cosine * cosine, lobe = both / (k * root(k));
         for (int c = 0; c < 3; ++c) {
-            const N depth = -least(in[c] * in[23], N(87.0f));
+            const N depth = -min(in[c] * in[23], N(87.0f));
             out[c] = monotoneOf(depth, exact_exp, exponential_promise, exponential_flush);
             const N source = in[8 + c] * both + in[12 + c] * lobe + in[16 + c];
             out[3 + c] = source * -monotoneOf(depth, exact_expm1, exponential_promise, exponential_flush);
@@ -187,9 +186,9 @@ Probe logRatioProbe() {
         out[0] = z < 1e-12 ? 1 : -std::log1p(-z) / z;
     };
     follow(p, []<class N>(const N* in, N* out) {
-        const N one(1.0f), w = least(in[0], N(0.9999999f));
+        const N one(1.0f), w = min(in[0], N(0.9999999f));
         const N series = one + w * (N(0.5f) + w * (N(0.33333333f) + w * N(0.25f)));
-        const N ratio = -naturalLogarithm(one - w) / most(w, N(0.0099f));
+        const N ratio = -naturalLogarithm(one - w) / max(w, N(0.0099f));
         out[0] = chosen(isLess(w, N(0.01f)), approximating(series, 0.01 * 0.01 * 0.01 * 0.01 / 5), ratio);
     });
     return p;

@@ -21,8 +21,8 @@ Probe brdfProbe(const char* name, std::uint32_t function, const char* inputs, co
 
 // Squared perceptual roughness, from the smallest shaded roughness to 1, including both ends.
 double randomAlpha(Random& random) {
-    const double least_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
-    const double r = random.coin() ? random.ends(least_roughness, 1) : random.logarithmic(least_roughness, 1);
+    const double min_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
+    const double r = random.coin() ? random.ends(min_roughness, 1) : random.logarithmic(min_roughness, 1);
     return r * r;
 }
 
@@ -84,13 +84,13 @@ double lobeByDefinition(double roughness, Vec<double> n, Vec<double> v, Vec<doub
 
 template <class N>
 N lobeSequence(N roughness, Vec<N> n, Vec<N> v, Vec<N> l) {
-    const N r = most(roughness, N(gpu::MIN_PERCEPTUAL_ROUGHNESS)), alpha = r * r, alpha2 = alpha * alpha;
-    const N nv = most(dot(n, v), N(gpu::MIN_N_DOT_V)), nl = least(most(dot(n, l), N(0.0f)), N(1.0f));
+    const N r = max(roughness, N(gpu::MIN_PERCEPTUAL_ROUGHNESS)), alpha = r * r, alpha2 = alpha * alpha;
+    const N nv = max(dot(n, v), N(gpu::MIN_N_DOT_V)), nl = min(max(dot(n, l), N(0.0f)), N(1.0f));
     const N smith_v = root(nv * nv * (N(1.0f) - alpha2) + alpha2);
     const Vec<N> s = l + v;
     const N q = denominator(alpha2, n, s), smith_l = root(nl * nl * (N(1.0f) - alpha2) + alpha2);
     const N sum = nl * smith_v + nv * smith_l, a = alpha * dot(s, s);
-    return a * a * N(0.5f * gpu::INVERSE_PI) / most(q * q * sum, N(1e-37f));
+    return a * a * N(0.5f * gpu::INVERSE_PI) / max(q * q * sum, N(1e-37f));
 }
 
 // Roughness, any n, v and l above its horizon with a cosine of at least `lowest`. Half of the l are near
@@ -173,8 +173,8 @@ EnergyRow energyRow(std::size_t row) {
     const std::size_t line = row / energy_line, k = row % energy_line;
     const auto share = [](std::size_t i) { return static_cast<double>(i) / (energy_side - 1); };
     EnergyRow e{};
-    const double least_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
-    e.roughness = least_roughness + (1 - least_roughness) * share(line / energy_side % energy_side);
+    const double min_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
+    e.roughness = min_roughness + (1 - min_roughness) * share(line / energy_side % energy_side);
     const double down = share(line % energy_side);
     e.mu = std::max(1 - down * (2 - down), double{gpu::MIN_N_DOT_V});  // denser near the horizon
     const double alpha = e.roughness * e.roughness;
@@ -243,7 +243,7 @@ Probe schlickProbe() {
     p.make = [](Random&, std::size_t row, float* in) { in[0] = onLine(row, 256, 0, 1); };
     p.definition = [](const float* in, double* out) { out[0] = std::pow(1 - double{in[0]}, 5); };
     follow(p, []<class N>(const N* in, N* out) {
-        const N x = least(most(N(1.0f) - in[0], N(0.0f)), N(1.0f)), x2 = x * x;
+        const N x = min(max(N(1.0f) - in[0], N(0.0f)), N(1.0f)), x2 = x * x;
         out[0] = x2 * x2 * x;
     });
     p.monotone = -1;
@@ -285,10 +285,9 @@ Probe lightProbe() {
                      l = nearlyUnit(vecAt(in + 7));
         const N one(1.0f), metallic = in[10], albedo = in[11], f0 = in[12], f90 = in[13];
         const auto mix = [&](N a, N b) { return a * (one - metallic) + b * metallic; };
-        const N nl = least(most(dot(n, l), N(0.0f)), one);
+        const N nl = min(max(dot(n, l), N(0.0f)), one);
         const Vec<N> s = l + v;
-        const N x = least(most(one - N(0.5f) * root(dot(s, s)), N(0.0f)), one), x2 = x * x,
-                weight = x2 * x2 * x;
+        const N x = min(max(one - N(0.5f) * root(dot(s, s)), N(0.0f)), one), x2 = x * x, weight = x2 * x2 * x;
         const N mixed = mix(f0, albedo), fresnel = mixed + (mix(f90, one) - mixed) * weight;
         const N base = one - (f0 + (f90 - f0) * weight);
         out[0] = (one - metallic) * albedo * N(gpu::INVERSE_PI) * base * nl;

@@ -87,8 +87,8 @@ Probe octahedralProbe(std::uint32_t bits) {
         };
         const N q0 = chosen(below, wrap(p0, p1), p0), q1 = chosen(below, wrap(p1, p0), p1);
         const N top(static_cast<float>(topOfCoordinate(bits))), half(0.5f);
-        out[0] = floorOf(least(most(q0, -one), one) * top + half);
-        out[1] = floorOf(least(most(q1, -one), one) * top + half);
+        out[0] = floorOf(min(max(q0, -one), one) * top + half);
+        out[1] = floorOf(min(max(q1, -one), one) * top + half);
         // Decoded as in decodedProbe(); this only generates an inexact device's result.
         const N x = out[0] * (one / top), y = out[1] * (one / top), z = one - size(x) - size(y);
         const auto under = isLess(z, N(0.0f));
@@ -160,7 +160,7 @@ Probe unormProbe(std::uint32_t bits) {
         out[0] = std::clamp(double{in[0]}, 0.0, 1.0) * top;
     };
     follow(p, [top]<class N>(const N* in, N* out) {
-        const N x = least(most(in[0], N(0.0f)), N(1.0f));
+        const N x = min(max(in[0], N(0.0f)), N(1.0f));
         out[0] = floorOf(x * N(static_cast<float>(top)) + N(0.5f));
     });
     // Sum and product may each be rounded one ULP up or down.
@@ -197,7 +197,7 @@ Probe rootCodeProbe() {
     p.step = [](const float*, std::size_t, double) { return 1; };
     p.definition = [top](const float* in, double* out) { out[0] = top * std::sqrt(double{in[0]}); };
     follow(p, [top]<class N>(const N* in, N* out) {
-        out[0] = floorOf(least(most(root(in[0]), N(0.0f)), N(1.0f)) * N(static_cast<float>(top)) + N(0.5f));
+        out[0] = floorOf(min(max(root(in[0]), N(0.0f)), N(1.0f)) * N(static_cast<float>(top)) + N(0.5f));
     });
     p.allowance = [top](const float* in, double* allowed) {
         allowed[0] = 0.5 + top * root(Interval(in[0])).width() + 2 * ulpOf(top);
@@ -225,7 +225,7 @@ Probe rootBackProbe() {
 // Step of 9.9.9.e5 (EXT_texture_shared_exponent): from the largest component's exponent after rounding to
 // the mantissa's bits; at least 2^-24.
 double sharedStep(double largest) {
-    const double most_value = double{gpu::EMISSION_MAX}, x = std::clamp(largest, 0.0, most_value);
+    const double max_value = double{gpu::EMISSION_MAX}, x = std::clamp(largest, 0.0, max_value);
     double step = std::exp2(-double{gpu::EMISSION_BIAS + gpu::EMISSION_MANTISSA_BITS});
     // Rounding decides whether one bit more is needed, so both steps are valid.
     while (x > step * (topOf(gpu::EMISSION_MANTISSA_BITS) + 0.5 - 0x1p-14)) step *= 2;

@@ -22,8 +22,8 @@ inline Random& inexactness() {
 inline Inexact anyOf(Interval x) {
     // Half of them are the ends.
     const double share = std::clamp(inexactness().uniform(-0.5, 1.5), 0.0, 1.0);
-    const double most_value = double{std::numeric_limits<float>::max()};
-    const double lo = floatAbove(std::max(x.lo, -most_value)), hi = floatBelow(std::min(x.hi, most_value));
+    const double max_value = double{std::numeric_limits<float>::max()};
+    const double lo = floatAbove(std::max(x.lo, -max_value)), hi = floatBelow(std::min(x.hi, max_value));
     if (hi <= lo) return static_cast<float>(lo);
     return static_cast<float>(std::clamp(double{static_cast<float>(lo + (hi - lo) * share)}, lo, hi));
 }
@@ -70,10 +70,10 @@ inline Inexact sine(Inexact x) {
 inline Inexact cosine(Inexact x) {
     return anyOf(cosine(Interval(x.value)));
 }
-inline Inexact least(Inexact a, Inexact b) {
+inline Inexact min(Inexact a, Inexact b) {
     return std::min(a.value, b.value);
 }
-inline Inexact most(Inexact a, Inexact b) {
+inline Inexact max(Inexact a, Inexact b) {
     return std::max(a.value, b.value);
 }
 inline Inexact size(Inexact a) {

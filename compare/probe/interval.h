@@ -24,7 +24,7 @@
 namespace diptych::probe {
 
 inline constexpr double endless = std::numeric_limits<double>::infinity();
-inline constexpr double least_normal = 0x1p-126;
+inline constexpr double min_normal = 0x1p-126;
 
 // The spacing of floats at x; 2^-149, that of denormals, below 2^-126.
 inline double ulpOf(double x) {
@@ -50,8 +50,8 @@ struct Interval {
     Interval(float x) : Interval(double{x}, double{x}) {}
     // Denormals may be treated as 0.
     Interval(double from, double to) : lo(from), hi(to) {
-        if (lo > 0 && lo < least_normal) lo = 0;
-        if (hi < 0 && hi > -least_normal) hi = 0;
+        if (lo > 0 && lo < min_normal) lo = 0;
+        if (hi < 0 && hi > -min_normal) hi = 0;
     }
     double width() const { return hi - lo; }
 };
@@ -105,7 +105,7 @@ inline Interval operator*(Interval a, Interval b) {
 }
 inline Interval operator/(Interval a, Interval b) {
     const double near = b.lo > 0 ? b.lo : -b.hi, far = b.lo > 0 ? b.hi : -b.lo;
-    if (!(near >= least_normal) || far > 0x1p126) return anything();
+    if (!(near >= min_normal) || far > 0x1p126) return anything();
     const Interval ends = ofEnds(a, b, [](double x, double y) { return x / y; });
     return within(ends.lo, ends.hi, 2.5);
 }
@@ -113,7 +113,7 @@ inline Interval operator/(Interval a, Interval b) {
 // The sum in any order: the exact one, widened by two roundings of the sum of magnitudes.
 inline Interval sumOf(Interval a, Interval b, Interval c) {
     const auto size = [](Interval x) { return std::max(std::abs(x.lo), std::abs(x.hi)); };
-    const double most = size(a) + size(b) + size(c), more = most > 0 ? ulpOf(most) : 0;
+    const double max = size(a) + size(b) + size(c), more = max > 0 ? ulpOf(max) : 0;
     const Interval exact = rounded(a.lo + b.lo + c.lo, a.hi + b.hi + c.hi);
     return rounded(exact.lo - more, exact.hi + more);
 }
@@ -166,10 +166,10 @@ inline Interval cosine(Interval x) {
     return waveOf(x, [](double v) { return std::cos(v); });
 }
 
-inline Interval least(Interval a, Interval b) {
+inline Interval min(Interval a, Interval b) {
     return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
-inline Interval most(Interval a, Interval b) {
+inline Interval max(Interval a, Interval b) {
     return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
 inline Interval size(Interval a) {

@@ -27,7 +27,7 @@ double attenuation(Vec<double> to_light, double inverse_range_squared) {
 
 template <class N>
 N attenuationSequence(Vec<N> to_light, N inverse_range_squared, N& inverse) {
-    const N one(1.0f), d2 = most(dot(to_light, to_light), N(gpu::MIN_LIGHT_DISTANCE_SQUARED));
+    const N one(1.0f), d2 = max(dot(to_light, to_light), N(gpu::MIN_LIGHT_DISTANCE_SQUARED));
     const N x = d2 * inverse_range_squared;
     inverse = inverseRoot(d2);
     return chosen(isLess(x, one), one - x * x, N(0.0f)) * (inverse * inverse);
@@ -134,7 +134,7 @@ Probe spotProbe() {
         const Vec<N> to = vecAt(in);
         const N point = attenuationSequence(to, in[3], inverse);
         const N cosine = dot(to * inverse, vecAt(in + 4));
-        const N share = least(most(in[8] - cosine * in[7], N(0.0f)), N(1.0f));
+        const N share = min(max(in[8] - cosine * in[7], N(0.0f)), N(1.0f));
         out[0] = point * (share * share);
     });
     return p;

@@ -28,8 +28,8 @@ constexpr auto exact_arc = [](double x) {
 
 template <class N>
 N ratioSequence(N cosine, N sine) {
-    const N ratio = monotoneOf(least(size(cosine), N(1.0f)), exact_arc, arc_promise);
-    return chosen(isLess(cosine, N(0.0f)), N(gpu::PI) / most(sine, N(1e-15f)) - ratio, ratio);
+    const N ratio = monotoneOf(min(size(cosine), N(1.0f)), exact_arc, arc_promise);
+    return chosen(isLess(cosine, N(0.0f)), N(gpu::PI) / max(sine, N(1e-15f)) - ratio, ratio);
 }
 
 Probe angleProbe() {
@@ -52,7 +52,7 @@ Probe angleProbe() {
     // The pair is rounded: both functions use the component that determines the angle best, the definition
     // uses both.
     follow(p, []<class N>(const N* in, N* out) {
-        const N small = monotoneOf(least(size(in[0]), N(1.0f)), exact_arc, arc_promise) * in[1];
+        const N small = monotoneOf(min(size(in[0]), N(1.0f)), exact_arc, arc_promise) * in[1];
         const N angle = chosen(isLess(in[0], N(0.0f)), N(gpu::PI) - small, small);
         out[0] = approximating(angle, 0x1p-22);
         out[1] = approximating(ratioSequence(in[0], in[1]), 0x1p-22);
@@ -62,7 +62,7 @@ Probe angleProbe() {
 
 template <class N>
 Vec<N> unitSequence(Vec<N> v) {
-    return v * inverseRoot(most(dot(v, v), N(1e-37f)));
+    return v * inverseRoot(max(dot(v, v), N(1e-37f)));
 }
 template <class N>
 Vec<N> edgeSequence(Vec<N> from, Vec<N> to) {
@@ -172,9 +172,9 @@ Probe parallelogramProbe(bool plain) {
         c.z = std::abs(c.z);
         const Vec<double> normal = randomDirection(random);
         // Smaller lights are nearly points: 128 times their size away.
-        const double least_side = std::max(0.01, distance * 0.05);
-        Vec<double> x = rotatedTo(normal, {1, 0, 0}) * random.logarithmic(least_side, 10);
-        const Vec<double> y = rotatedTo(normal, {0, 1, 0}) * random.logarithmic(least_side, 10);
+        const double min_side = std::max(0.01, distance * 0.05);
+        Vec<double> x = rotatedTo(normal, {1, 0, 0}) * random.logarithmic(min_side, 10);
+        const Vec<double> y = rotatedTo(normal, {0, 1, 0}) * random.logarithmic(min_side, 10);
         // cross(x, y) points away from the surface.
         if (dot(cross(x, y), c) < 0) x = x * -1.0;
         // A light whose plane contains the surface is not tested.

@@ -36,7 +36,7 @@ double away(double depth, double nearest) {
 }
 template <class N>
 N awaySequence(N depth, N nearest) {
-    const N one(1.0f), t = one - least(most(depth, N(0.0f)), one);
+    const N one(1.0f), t = one - min(max(depth, N(0.0f)), one);
     return nearest * (one - t) + one * t;
 }
 
@@ -173,21 +173,21 @@ Probe visibilityProbe(bool four) {
         out[0] = std::clamp((share - double{in[3]}) / (1 - double{in[3]}), 0.0, 1.0);
     };
     follow(p, [four]<class N>(const N* in, N* out) {
-        const N one(1.0f), zero(0.0f), most_variance(1e30f);
+        const N one(1.0f), zero(0.0f), max_variance(1e30f);
         const N d = awaySequence(in[10], in[2]), range = one - in[2];
         const auto bound = [&](N behind, N variance) {
             return chosen(isLess(zero, behind), variance / (variance + behind * behind), one);
         };
         const N per_w = exponential(-in[0] * d), mean = in[6] * per_w, square = in[7] * per_w * per_w;
         N slope = in[0] * range;
-        N share = bound(one - mean, least(most(square - mean * mean, in[4] * slope * slope), most_variance));
+        N share = bound(one - mean, min(max(square - mean * mean, in[4] * slope * slope), max_variance));
         if (four) {
             const N per_mean = one / in[8], n = -exponential(-in[1] * d) * per_mean;
             slope = in[1] * range * n;
-            const N variance = most(in[9] * per_mean * per_mean - one, in[4] * slope * slope);
-            share = least(share, bound(one - n, least(variance, most_variance)));
+            const N variance = max(in[9] * per_mean * per_mean - one, in[4] * slope * slope);
+            share = min(share, bound(one - n, min(variance, max_variance)));
         }
-        out[0] = least(most((share - in[3]) / (one - in[3]), zero), one);
+        out[0] = min(max((share - in[3]) / (one - in[3]), zero), one);
     });
     return p;
 }
@@ -195,7 +195,7 @@ Probe visibilityProbe(bool four) {
 // The smallest fraction before `depth` over all distributions with moments b (Akhiezer 1965, "The
 // Classical Moment Problem"). Its polynomial is orthogonal to 1 and d under (d - depth) times the
 // distribution. The roots are the other two positions; weights follow from moments 0, 1 and 2.
-double leastBefore(const std::array<double, 4>& b, double depth) {
+double minBefore(const std::array<double, 4>& b, double depth) {
     // Moments of (d - depth) times the distribution, and q = d^2 + u d + v with <q, 1> = <q, d> = 0.
     const double m0 = b[0] - depth, m1 = b[1] - depth * b[0], m2 = b[2] - depth * b[1],
                  m3 = b[3] - depth * b[2];
@@ -234,24 +234,24 @@ Probe hamburgerProbe() {
     p.definition = [](const float* in, double* out) {
         std::array<double, 4> b{};
         for (std::size_t i = 0; i < 4; ++i) b[i] = double{in[i]} * (1 - double{in[5]}) + 0.5 * double{in[5]};
-        out[0] = leastBefore(b, double{in[4]});
+        out[0] = minBefore(b, double{in[4]});
     };
     follow(p, []<class N>(const N* in, N* out) {
         const N one(1.0f), zero(0.0f), half(0.5f), tiny(1e-20f), depth = in[4];
         N b[4];
         for (int i = 0; i < 4; ++i) b[i] = in[i] * (one - in[5]) + half * in[5];
-        const N l32_d22 = b[2] - b[0] * b[1], d22 = most(b[1] - b[0] * b[0], N(1e-9f));
-        const N d33_d22 = most((b[3] - b[1] * b[1]) * d22 - l32_d22 * l32_d22, tiny), l32 = l32_d22 / d22;
+        const N l32_d22 = b[2] - b[0] * b[1], d22 = max(b[1] - b[0] * b[0], N(1e-9f));
+        const N d33_d22 = max((b[3] - b[1] * b[1]) * d22 - l32_d22 * l32_d22, tiny), l32 = l32_d22 / d22;
         N c1 = depth - b[0];
         const N c2 = (depth * depth - b[1] - l32 * c1) * (d22 / d33_d22);
         c1 = c1 / d22 - l32 * c2;
         const N c0 = one - c1 * b[0] - c2 * b[1];
         const N scale = chosen(isLess(tiny, size(c2)), c2, tiny), q = half * c1 / scale;
-        const N r = root(most(q * q - c0 / scale, zero)), x = -q - r, y = -q + r;
+        const N r = root(max(q * q - c0 / scale, zero)), x = -q - r, y = -q + r;
         const N at = (x * y - b[0] * (x + y) + b[1]) / ((depth - x) * (depth - y));
         const N first = (depth * y - b[0] * (depth + y) + b[1]) / ((y - x) * (depth - x));
         const N before = chosen(isLess(y, depth), one - at, chosen(isLess(x, depth), first, zero));
-        out[0] = least(most(before, zero), one);
+        out[0] = min(max(before, zero), one);
     });
     return p;
 }
@@ -269,9 +269,9 @@ Probe anyMomentsProbe(const char* name, std::uint32_t shadows) {
     p.make = [shadows](Random& random, std::size_t, float* in) {
         makeShadowLight(random, in);
         for (int i = 0; i < 4; ++i) {
-            const double most_value = shadows == gpu::SHADOWS_MSM4 ? 1 : 1e34;
+            const double max_value = shadows == gpu::SHADOWS_MSM4 ? 1 : 1e34;
             in[6 + i] =
-                static_cast<float>(random.coin() ? random.ends(0, 1) : random.logarithmic(1e-30, most_value));
+                static_cast<float>(random.coin() ? random.ends(0, 1) : random.logarithmic(1e-30, max_value));
         }
         in[8] = shadows == gpu::SHADOWS_EVSM4 ? -in[8] : in[8];
         in[10] = static_cast<float>(random.ends(0, 1));

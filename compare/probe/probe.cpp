@@ -35,9 +35,9 @@ void evaluateRow(const Probe& probe, std::size_t row, const float* in, const flo
     for (std::size_t k = 0; k < probe.outs; ++k) {
         const double e = expected[k];
         // Values below the normal range may be flushed to 0: they are judged, but not counted in ULP.
-        const double step = probe.step                             ? probe.step(in, k, e)
-                            : std::abs(e) < least_normal && e != 0 ? 0
-                                                                   : ulpOf(e);
+        const double step = probe.step                           ? probe.step(in, k, e)
+                            : std::abs(e) < min_normal && e != 0 ? 0
+                                                                 : ulpOf(e);
         tally.value(row, k, out[k], e, allowed[k], step);
     }
 }

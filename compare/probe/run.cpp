@@ -44,8 +44,8 @@ Result concluded(const Probe& probe, Tally tally) {
     return result;
 }
 
-Result runProbe(DeviceRows& device, const Probe& probe, std::size_t most_rows) {
-    const std::size_t rows = wholeLines(std::min(probe.rows, most_rows), probe.line);
+Result runProbe(DeviceRows& device, const Probe& probe, std::size_t max_rows) {
+    const std::size_t rows = wholeLines(std::min(probe.rows, max_rows), probe.line);
     const std::size_t chunk = wholeLines(chunk_rows, probe.line), task = wholeLines(task_rows, probe.line);
     Tally all;
     for (std::size_t first = 0; first < rows; first += chunk) {

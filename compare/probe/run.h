@@ -22,8 +22,8 @@ struct Result {
     bool passed = false;
 };
 
-// Generates inputs, runs the probe and judges the results; at most `most_rows` rows.
-Result runProbe(DeviceRows& rows, const Probe& probe, std::size_t most_rows = SIZE_MAX);
+// Generates inputs, runs the probe and judges the results; at most `max_rows` rows.
+Result runProbe(DeviceRows& rows, const Probe& probe, std::size_t max_rows = SIZE_MAX);
 Result concluded(const Probe& probe, Tally tally);
 
 // How the device rounds where Vulkan leaves a choice: denormals, sums, fused products, halves.

@@ -54,11 +54,11 @@ Probe roughnessProbe() {
     follow(p, []<class N>(const N* in, N* out) {
         const Vec<N> x = vecAt(in + 1), y = vecAt(in + 4);
         const N change = dot(x, x) + dot(y, y), zero(0.0f);
-        const N kernel = chosen(isLess(in[7], change), least(N(2.0f) * N(variance) * change, N(limit)), zero);
-        N alpha = most(in[0], N(gpu::MIN_PERCEPTUAL_ROUGHNESS));
+        const N kernel = chosen(isLess(in[7], change), min(N(2.0f) * N(variance) * change, N(limit)), zero);
+        N alpha = max(in[0], N(gpu::MIN_PERCEPTUAL_ROUGHNESS));
         alpha = alpha * alpha;
-        const N filtered = root(root(least(alpha * alpha + kernel, N(1.0f))));
-        out[0] = chosen(isLess(zero, kernel), most(filtered, in[0]), in[0]);
+        const N filtered = root(root(min(alpha * alpha + kernel, N(1.0f))));
+        out[0] = chosen(isLess(zero, kernel), max(filtered, in[0]), in[0]);
     });
     return p;
 }
@@ -90,7 +90,7 @@ Probe betweenProbe(bool energy) {
         out[2] = (f0 * x + f90 * y) * mean * lost / (std::numbers::pi * (1 - mean * lost));
     };
     follow(p, [energy]<class N>(const N* in, N* out) {
-        const N one(1.0f), all = in[2] + in[3], lost = most(one - all, N(0.0f));
+        const N one(1.0f), all = in[2] + in[3], lost = max(one - all, N(0.0f));
         const N gain = energy ? one + in[0] * (lost / all) : one;
         out[0] = in[0] * gain, out[1] = in[1] * gain, out[2] = N(0.0f);
         if (energy) return;
@@ -167,7 +167,7 @@ Probe unitProbe() {
     };
     follow(p, []<class N>(const N* in, N* out) {
         const Vec<N> v = vecAt(in);
-        const N largest = most(size(v.x), most(size(v.y), size(v.z))), zero(0.0f);
+        const N largest = max(size(v.x), max(size(v.y), size(v.z))), zero(0.0f);
         const auto there = isLess(zero, largest);
         const Vec<N> scaled = v / chosen(there, largest, N(1.0f));
         const N l = chosen(there, root(dot(scaled, scaled)), N(1.0f));
@@ -230,7 +230,7 @@ Probe environmentHarmonicsProbe() {
                                      N(3.0f) * n.z * n.z - one,
                                      n.x * n.z,
                                      n.x * n.x - n.y * n.y};
-        for (int c = 0; c < 3; ++c) out[c] = most(sum(in, basis, c), N(0.0f));
+        for (int c = 0; c < 3; ++c) out[c] = max(sum(in, basis, c), N(0.0f));
     });
     return p;
 }
@@ -263,7 +263,7 @@ Probe objectHarmonicsProbe() {
             const N linear = e(1) * n.x + e(2) * n.y + e(3) * n.z;
             const N mixed = e(6) * (n.x * n.y) + e(7) * (n.y * n.z) + e(8) * (n.x * n.z);
             const N squares = e(4) * (n.x * n.x - n.z * n.z) + e(5) * (n.y * n.y - n.z * n.z);
-            out[c] = most(e(0) + linear + squares + N(2.0f) * mixed, N(0.0f));
+            out[c] = max(e(0) + linear + squares + N(2.0f) * mixed, N(0.0f));
         }
     });
     return p;
@@ -287,7 +287,7 @@ Probe maskingProbe() {
     };
     follow(p, []<class N>(const N* in, N* out) {
         const N one(1.0f), c2 = in[1] * in[1];
-        out[0] = N(0.5f) * (root(one + in[0] * most(one - c2, N(0.0f)) / c2) - one);
+        out[0] = N(0.5f) * (root(one + in[0] * max(one - c2, N(0.0f)) / c2) - one);
     });
     return p;
 }
@@ -301,13 +301,13 @@ Probe levelProbe() {
     p.unit = "ULP of 1";
     p.step = [](const float*, std::size_t, double) { return ulpOf(1); };
     const double first_alpha = double{gpu::ENVIRONMENT_FIRST_ALPHA},
-                 least_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
-    p.make = [least_roughness](Random&, std::size_t row, float* in) {
-        in[0] = onLine(row, 256, least_roughness * least_roughness, row / 256 % 3 ? 1 : 0.02);
+                 min_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
+    p.make = [min_roughness](Random&, std::size_t row, float* in) {
+        in[0] = onLine(row, 256, min_roughness * min_roughness, row / 256 % 3 ? 1 : 0.02);
     };
     p.definition = [=](const float* in, double* out) {
-        const double a = double{in[0]}, least_alpha = least_roughness * least_roughness;
-        out[0] = a < first_alpha ? std::log(a / least_alpha) / std::log(first_alpha / least_alpha)
+        const double a = double{in[0]}, min_alpha = min_roughness * min_roughness;
+        out[0] = a < first_alpha ? std::log(a / min_alpha) / std::log(first_alpha / min_alpha)
                                  : 1 + gpu::ENVIRONMENT_LEVELS_AN_OCTAVE * std::log2(a / first_alpha);
     };
     follow(p, []<class N>(const N* in, N* out) {
@@ -355,12 +355,12 @@ Probe toneProbe() {
         for (int i = 0; i < 3; ++i) out[i] = (out[i] * compressed / peak) * (1 - white) + compressed * white;
     };
     follow(p, []<class N>(const N* in, N* out) {
-        const N one(1.0f), f90(0.04f), start = N(0.8f) - f90, low = least(in[0], least(in[1], in[2]));
+        const N one(1.0f), f90(0.04f), start = N(0.8f) - f90, low = min(in[0], min(in[1], in[2]));
         const N toe = chosen(isLess(low, N(0.08f)), low - low * low / (N(4.0f) * f90), f90);
         N rgb[3];
         for (int i = 0; i < 3; ++i) rgb[i] = in[i] - toe;
-        const N peak = most(rgb[0], most(rgb[1], rgb[2])), room = one - start;
-        const N safe = most(peak, N(0.5f)), compressed = one - room * room / (safe + room - start);
+        const N peak = max(rgb[0], max(rgb[1], rgb[2])), room = one - start;
+        const N safe = max(peak, N(0.5f)), compressed = one - room * room / (safe + room - start);
         const N white = one - one / (N(0.15f) * (safe - compressed) + one);
         for (int i = 0; i < 3; ++i) {
             const N curved = rgb[i] * compressed / safe;

@@ -37,7 +37,7 @@ void Tally::value(std::size_t row, std::size_t output, float got, double expecte
     const double granted = allowed + std::abs(expected) * definition_rounding;
     if (!std::isfinite(got)) ++nonfinite;
     if (!(off <= granted)) ++failures;
-    const double most = std::numeric_limits<double>::max(), counted = std::isfinite(off) ? off : most;
+    const double max = std::numeric_limits<double>::max(), counted = std::isfinite(off) ? off : max;
     const Worst here{0, double{got}, expected, allowed, row, output, true};
     if (step > 0) {
         Worst in_units = here;
@@ -47,7 +47,7 @@ void Tally::value(std::size_t row, std::size_t output, float got, double expecte
         errors.push_back(static_cast<float>(std::min(in_units.error, 1e30)));
     }
     Worst share = here;
-    share.error = counted == 0 ? 0 : granted > 0 ? counted / granted : most;
+    share.error = counted == 0 ? 0 : granted > 0 ? counted / granted : max;
     keepWorse(tightest, share);
 }
 

@@ -12,10 +12,10 @@
 namespace diptych::reference {
 
 // Sampling stops when half the 95 % confidence interval is at most samplingError relative to the estimate,
-// or at mostSamples. The pixel's uncertainty records which was reached. If no sample sees a light, the
+// or at maxSamples. The pixel's uncertainty records which was reached. If no sample sees a light, the
 // uncertainty is 0, although up to samplingError of the light may pass through a gap between samples.
 inline constexpr double samplingError = 0.01;
-inline constexpr std::uint32_t mostSamples = 65536;
+inline constexpr std::uint32_t maxSamples = 65536;
 
 struct Estimated {
     Reflected value;
@@ -46,7 +46,7 @@ Estimated sampleUntilConfident(const Estimate& estimate, std::size_t samples, st
         const double size = rounds.mean().size(), width = caution * rounds.halfWidth();
         const double unseen = 3 * piece / static_cast<double>(done * count);
         if (std::max(width, unseen) <= samplingError * std::max(whole, size) ||
-            done * count * samples >= mostSamples)
+            done * count * samples >= maxSamples)
             return {rounds.mean(), size > 0 ? std::max(width, unseen) : width};
     }
 }

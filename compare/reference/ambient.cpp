@@ -70,8 +70,8 @@ private:
     }
 
     static Surface framed(Surface s) {
-        constexpr double least = 1e-4;  // n.v, as in the material (README.md, "The model")
-        const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least, 1.0);
+        constexpr double min = 1e-4;  // n.v, as in the material (README.md, "The model")
+        const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), min, 1.0);
         if (s.anisotropy > 0) {
             const glm::dvec3 along = s.anisotropy_direction;
             const glm::dvec3 x = unitOr(s.to_viewer - s.normal * glm::dot(s.normal, s.to_viewer), along);

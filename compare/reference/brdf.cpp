@@ -45,7 +45,7 @@ glm::dvec3 fresnel(const ThinFilm& film, const glm::dvec3& f0, double f90, doubl
 }
 
 double viewCosine(const Surface& s) {
-    return std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0);
+    return std::clamp(glm::dot(s.normal, s.to_viewer), min_n_dot_v, 1.0);
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ double widthTowards(const Widths& w, const glm::dvec3& direction) {
 
 // The extension's text: alpha_t = mix(alpha, 1, strength^2), alpha_b = alpha.
 Widths widthsOf(const Surface& s) {
-    const double alpha = square(std::max(s.roughness, least_roughness));
+    const double alpha = square(std::max(s.roughness, min_roughness));
     if (!(s.anisotropy > 0)) return {alpha, alpha};
     return {alpha + (1 - alpha) * square(s.anisotropy), alpha, s.anisotropy_direction,
             glm::cross(s.normal, s.anisotropy_direction)};

@@ -34,7 +34,7 @@ Found find(const double* cumulative, std::size_t count, double u) {
 }
 
 // Blocks are at least about 11 degrees wide.
-constexpr int mostAcross = 32, mostDown = 16;
+constexpr int maxAcross = 32, maxDown = 16;
 
 }  // namespace
 
@@ -44,8 +44,8 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, double factor
     : image_(environment.radiance),
       factor_(factor),
       turned_(turned),
-      across_(std::min(mostAcross, image_.width)),
-      down_(std::min(mostDown, image_.height)) {
+      across_(std::min(maxAcross, image_.width)),
+      down_(std::min(maxDown, image_.height)) {
     const int width = image_.width, height = image_.height;
     const auto brightness = [&](int x, int y) {
         const glm::dvec3 color = texel(x, y);

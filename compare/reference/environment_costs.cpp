@@ -43,7 +43,7 @@ double meanCosine(double alpha) {
 }
 
 // A narrower lobe is bounded by one of this width and by a mirror.
-constexpr double leastFiltered = 1.0 / 64;
+constexpr double minFiltered = 1.0 / 64;
 // Fractions of the peak: the error of interpolating irradiance linearly between nodes where a light sets,
 // and the effect of an error of 1 % in the window.
 constexpr double irradianceNodes = 0.02, windowKnown = 0.01;
@@ -185,16 +185,16 @@ EnvironmentApproximation::Means EnvironmentApproximation::meansOf(const glm::dve
 double EnvironmentApproximation::range(const glm::dvec3& direction, double reach) const {
     const glm::dvec3 x = perpendicularTo(direction), y = glm::cross(direction, x);
     const int steps = std::clamp(static_cast<int>(std::ceil(reach * light_.height() / pi)), 2, 12);
-    glm::dvec3 least = light_.radiance(direction), most = least;
+    glm::dvec3 min = light_.radiance(direction), max = min;
     for (int j = -steps; j <= steps; ++j)
         for (int i = -steps; i <= steps; ++i) {
             if (i * i + j * j > steps * steps) continue;
             const glm::dvec3 here = light_.radiance(
                 glm::normalize(direction + (x * double(i) + y * double(j)) * (reach / steps)));
-            least = glm::min(least, here);
-            most = glm::max(most, here);
+            min = glm::min(min, here);
+            max = glm::max(max, here);
         }
-    return largest(most - least);
+    return largest(max - min);
 }
 
 EnvironmentApproximation::Taken EnvironmentApproximation::takenAs(IblDiffuse kind, const glm::dvec3& normal,
@@ -269,8 +269,8 @@ EnvironmentCosts EnvironmentApproximation::costs(const Surface& surface, const C
     const double coarse =
         range(mirrored, cell_) * std::min(1.0, cell_ * cell_ / (4 * widths.across * widths.across));
     double filtered = coarse;
-    if (alpha < leastFiltered) {
-        const Means first = meansOf(n, mirrored, leastFiltered, streamOf(seed, 1));
+    if (alpha < minFiltered) {
+        const Means first = meansOf(n, mirrored, minFiltered, streamOf(seed, 1));
         filtered += largest(first.mirrored - means.mirrored) + first.uncertainty +
                     largest(light_.radiance(mirrored) - means.mirrored);
     }

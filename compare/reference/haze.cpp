@@ -33,7 +33,7 @@ glm::dvec3 extinctionOf(const Air& air, double height) {
     return air.molecules.extinction * densityOf(air.molecules, height) +
            air.aerosols.extinction * densityOf(air.aerosols, height);
 }
-double most(const glm::dvec3& v) {
+double max(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 double all(const glm::dvec3& v) {
@@ -50,7 +50,7 @@ double panelFrom(const Air& air, double height, double up, double step, const gl
     for (const bool first : {true, false}) {
         const AirKind& kind = first == molecules_last ? air.molecules : air.aerosols;
         const double low = height + std::min(up, 0.0) * std::min(step, 1e300);
-        const double there = most(kind.extinction) * densityOf(kind, low);
+        const double there = max(kind.extinction) * densityOf(kind, low);
         if (up != 0 && (std::isinf(step) || there * step > no_depth))
             step = std::min(step, kind.scale / std::abs(up));
     }
@@ -124,7 +124,7 @@ Hazed Haze::along(const glm::dvec3& origin, const glm::dvec3& away, double reach
             seen =
                 seen || (depth[c] < opaque && air_.molecules.extinction[c] + air_.aerosols.extinction[c] > 0);
         if (!seen) break;
-        if (std::isinf(reach) && up > 0 && most(here) < no_depth) break;
+        if (std::isinf(reach) && up > 0 && max(here) < no_depth) break;
     }
     Hazed hazed{glm::exp(-depth), scattered};
     if (std::isinf(reach) && up <= 0)

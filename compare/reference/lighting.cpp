@@ -306,7 +306,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     Estimated more{};
     const double whole = std::max({single.r, single.g, single.b});
     // Few paths meet a second facet, so each may use few samples.
-    if (share > Between::leastShare) more = sampleUntilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
+    if (share > Between::minShare) more = sampleUntilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
     if (walked > 0) {
         layer /= static_cast<double>(walked);
         sky /= static_cast<double>(walked);

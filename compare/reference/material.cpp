@@ -241,7 +241,7 @@ void Materials::film(const Hit& hit, const PixelRay& ray, Surface& s) const {
     if (!(s.iridescence > 0)) return;
     s.iridescence_ior = double{m.iridescence_ior};
     s.iridescence_thickness =
-        glm::mix(double{m.iridescence_thickness_least}, double{m.iridescence_thickness_most},
+        glm::mix(double{m.iridescence_thickness_min}, double{m.iridescence_thickness_max},
                  lookUp<&Material::iridescence_thickness_texture>(m, hit, &ray).g);
 }
 

@@ -20,7 +20,7 @@ constexpr double ray_start = 1e-9;
 }  // namespace
 
 glm::dvec3 MeshPaths::facetOf(const Boundary& b, const glm::dvec3& along, Random& random) {
-    if (!(b.roughness > least_roughness)) return b.normal;
+    if (!(b.roughness > min_roughness)) return b.normal;
     const glm::dvec3 x = perpendicularTo(b.normal), y = glm::cross(b.normal, x), back = -along;
     const glm::dvec3 from(glm::dot(x, back), glm::dot(y, back), glm::dot(b.normal, back));
     if (!(from.z > 0)) return b.normal;
@@ -80,7 +80,7 @@ std::optional<MeshPaths::End> MeshPaths::operator()(const Hit& entry, const Surf
         if (!hit) return path;
         path.length += hit->t;
         if (!materials_.blends(*hit)) return path;
-        if (event == mostEvents) return {};
+        if (event == maxEvents) return {};
         const Surface at = materials_.surface(*hit, {hit->position, path.direction});
         const auto [direction, leaves] =
             branched({at.normal, at.geometric_normal, at.roughness}, path.direction, index, random);

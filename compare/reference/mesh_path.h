@@ -20,7 +20,7 @@ public:
         : geometry_(geometry), materials_(materials) {}
 
     // Meetings with the inside of a mesh, after which a path counts as absorbed.
-    static constexpr int mostEvents = 16;
+    static constexpr int maxEvents = 16;
 
     // The last part of a path: it leaves the mesh, or meets an opaque surface in it. Through a mesh that is
     // open it goes on.

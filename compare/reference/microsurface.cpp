@@ -15,8 +15,8 @@ namespace diptych::reference {
 namespace {
 
 // Rays along the surface hit a facet at once, like rays just beside them.
-constexpr double leastCosine = 1e-9;
-constexpr double leastView = 1e-4;  // n.v, as in the material (README.md, "The model")
+constexpr double minCosine = 1e-9;
+constexpr double minView = 1e-4;  // n.v, as in the material (README.md, "The model")
 
 double squared(double x) {
     return x * x;
@@ -26,7 +26,7 @@ double squared(double x) {
 
 // Smith's Lambda for GGX; for directions from below, Lambda(-w) = -1 - Lambda(w).
 double Microsurface::lambda(const glm::dvec3& w) const {
-    const double z = std::clamp(std::abs(w.z), leastCosine, 1.0);
+    const double z = std::clamp(std::abs(w.z), minCosine, 1.0);
     const double above = (std::sqrt(1 + squared(alpha_) * (1 - squared(z)) / squared(z)) - 1) / 2;
     return w.z < 0 ? -1 - above : above;
 }
@@ -57,7 +57,7 @@ Microsurface::Facet::Seen Microsurface::Facet::of(const glm::dvec3& to_light) co
     if (!(to_light.z > 0) || !(length > 1e-12) || !(h.z > 0)) return {0, 0};
     const double cosine = h.z / length, alpha2 = squared(surface_.alpha_);
     const double d = alpha2 / (std::numbers::pi * squared(squared(cosine) * (alpha2 - 1) + 1));
-    const double seen = std::abs(1 + surface_.lambda(back_)) * std::max(std::abs(back_.z), leastCosine);
+    const double seen = std::abs(1 + surface_.lambda(back_)) * std::max(std::abs(back_.z), minCosine);
     return {glm::dot(back_, h) / length, d / (4 * seen) * std::exp(surface_.lambda(to_light) * height_)};
 }
 
@@ -67,7 +67,7 @@ Between::Between(const Surface& surface)
       x_(perpendicularTo(surface.normal)),
       y_(glm::cross(surface.normal, x_)) {
     from_ = {glm::dot(x_, surface.to_viewer), glm::dot(y_, surface.to_viewer),
-             std::max(glm::dot(surface.normal, surface.to_viewer), leastView)};
+             std::max(glm::dot(surface.normal, surface.to_viewer), minView)};
     from_ = glm::normalize(from_);
     Surface white = surface_;
     white.albedo = glm::dvec3(1);

@@ -77,7 +77,7 @@ public:
     // The fraction of all paths from the viewer that meet at least two facets.
     double share() const { return share_; }
     // No paths are traced below this fraction of uniform light.
-    static constexpr double leastShare = 0.002;
+    static constexpr double minShare = 0.002;
 
     // A path that meets at least two facets, found by rejection.
     struct Path {

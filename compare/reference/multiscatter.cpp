@@ -47,7 +47,7 @@ glm::dvec3 meanFresnel(const glm::dvec3& f0, double f90) {
 // A film may reflect more than the layer without it, and the base then gets no more than that leaves at n.v.
 glm::dvec3 filmTowardsViewer(const Surface& s) {
     if (!(s.iridescence > 0)) return glm::dvec3(0);
-    const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), least_n_dot_v, 1.0);
+    const double cosine = std::clamp(glm::dot(s.normal, s.to_viewer), min_n_dot_v, 1.0);
     const glm::dvec3 plain = s.dielectric_f0 + (s.dielectric_f90 - s.dielectric_f0) * std::pow(1 - cosine, 5);
     return glm::mix(plain, filmOf(s).reflected(cosine, s.dielectric_f0), s.iridescence);
 }

@@ -137,7 +137,7 @@ Visibility PixelRenderer::visibilityFrom(const Foot& foot) const {
 }
 
 double PixelRenderer::seenOfDisc(const Foot& foot, std::uint64_t seed) const {
-    const int samples = std::max(request_.samples, leastDiscSamples);
+    const int samples = std::max(request_.samples, minDiscSamples);
     const double radius = emitterOf(*sun_, {}).radius;
     const glm::dvec3 centre = -sun_->direction, x = perpendicularTo(centre), y = glm::cross(centre, x);
     const Visibility visible = visibilityFrom(foot);

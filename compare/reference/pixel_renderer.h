@@ -44,7 +44,7 @@ private:
     // whose float32 vertices may round to below the lamp, from occluding a lamp on it.
     static constexpr double lightOffset = 1e-5;
     // Minimum number of directions to a sun's disc, and their random stream, which no light has.
-    static constexpr int leastDiscSamples = 64;
+    static constexpr int minDiscSamples = 64;
     static constexpr std::uint64_t discStream = ~std::uint64_t{0};
     // The random stream of light through the pane.
     static constexpr std::uint64_t paneStream = ~std::uint64_t{6};

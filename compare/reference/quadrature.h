@@ -78,10 +78,10 @@ public:
 
 private:
     static constexpr int deepest = 24;
-    static constexpr std::size_t most = 20000;  // cells
+    static constexpr std::size_t max = 20000;  // cells
 
     void scout(const Cell& cell, int depth) {
-        const Split split = depth < 2 * deepest && start_.size() < most / 4 ? must_split_(cell) : Split::none;
+        const Split split = depth < 2 * deepest && start_.size() < max / 4 ? must_split_(cell) : Split::none;
         if (split != Split::none) {
             for (const Cell& half : cell.halves(split == Split::u)) scout(half, depth + 1);
             return;
@@ -99,7 +99,7 @@ private:
         }
         cells_ += 4;
         const double apart = (leaf.value - sum).size();
-        if (apart <= tolerance || depth >= deepest || cells_ >= most) {
+        if (apart <= tolerance || depth >= deepest || cells_ >= max) {
             if (!(apart <= tolerance)) result_.error += apart;
             result_.value += sum;
             if (leaves_) leaves_->push_back({leaf.cell, sum});

@@ -32,12 +32,12 @@ Surface underSheen(const Surface& surface) {
 
 double keptUnderSheen(const Surface& s) {
     if (!hasSheen(s)) return 1;
-    const double most = std::max({s.sheen_color.r, s.sheen_color.g, s.sheen_color.b});
-    return std::max(0.0, 1 - most * sheenAlbedo(s.sheen_roughness, glm::dot(s.normal, s.to_viewer)));
+    const double max = std::max({s.sheen_color.r, s.sheen_color.g, s.sheen_color.b});
+    return std::max(0.0, 1 - max * sheenAlbedo(s.sheen_roughness, glm::dot(s.normal, s.to_viewer)));
 }
 
-SheenLobe::SheenLobe(double roughness, double n_dot_v) : n_dot_v_(std::clamp(n_dot_v, least_n_dot_v, 1.0)) {
-    const double used = std::max(roughness, least_roughness), alpha = used * used;
+SheenLobe::SheenLobe(double roughness, double n_dot_v) : n_dot_v_(std::clamp(n_dot_v, min_n_dot_v, 1.0)) {
+    const double used = std::max(roughness, min_roughness), alpha = used * used;
     inverse_alpha_ = 1 / alpha;
     // The paper's section 3: from alpha = 1 to alpha = 0.
     const double t = (1 - alpha) * (1 - alpha);

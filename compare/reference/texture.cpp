@@ -141,12 +141,12 @@ glm::dvec4 Textures::operator()(const Texture& texture, bool srgb, const Footpri
         return sampler.magnify_linear ? bilinear(levels, 0, sampler, uv) : nearestTexel(levels, sampler, uv);
     // Spaces the points equally along both sides, with at least eight on each. A footprint at a grazing
     // angle is long and narrow and must not be blurred across its short side.
-    constexpr double least = 8, most = 64;
+    constexpr double min = 8, max = 64;
     const double across = std::abs(x.x * y.y - x.y * y.x) / longest;
     // Spacing of the points, in texels of level 0.
-    const double share = std::max(across / least, longest / most);
+    const double share = std::max(across / min, longest / max);
     const auto places = [&](const glm::dvec2& side) {
-        return static_cast<int>(std::clamp(std::ceil(glm::length(side) / share), least, most));
+        return static_cast<int>(std::clamp(std::ceil(glm::length(side) / share), min, max));
     };
     const int along_x = places(x), along_y = places(y);
     const double exact = std::clamp(std::log2(std::max(share, 1.0)), 0.0, levels.levels() - 1.0);

@@ -19,14 +19,14 @@ namespace diptych::reference {
 // hundredth took less than 20 ms. `render(x, y)` renders one pixel, from any thread.
 template <class Render>
 std::optional<double> expectedSeconds(int width, int height, const Render& render,
-                                      std::chrono::duration<double> most = std::chrono::milliseconds(1200)) {
+                                      std::chrono::duration<double> max = std::chrono::milliseconds(1200)) {
     using Clock = std::chrono::steady_clock;
     const double pixels = static_cast<double>(width) * height;
     const auto enough = static_cast<std::uint64_t>(std::ceil(pixels / 100));
     const auto start = Clock::now();
     std::atomic<std::uint64_t> drawn{0};
     tbb::parallel_for(std::uint64_t{0}, enough, [&](std::uint64_t i) {
-        if (Clock::now() - start > most) return;
+        if (Clock::now() - start > max) return;
         // The powers of 1 / 1.3247, the plastic number.
         const double u = std::fmod(0.5 + 0.7548776662466927 * static_cast<double>(i), 1.0),
                      v = std::fmod(0.5 + 0.5698402909980532 * static_cast<double>(i), 1.0);

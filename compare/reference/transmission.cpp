@@ -71,7 +71,7 @@ glm::dvec3 slabShift(const Surface& s, int component) {
 
 TransmittedLobe::TransmittedLobe(const Surface& s) : normal_(s.normal), straight_(-s.to_viewer) {
     const double alpha = widthOf(s);
-    if (!(alpha > squareOf(least_roughness)) || !(glm::dot(s.normal, s.to_viewer) > least_n_dot_v)) return;
+    if (!(alpha > squareOf(min_roughness)) || !(glm::dot(s.normal, s.to_viewer) > min_n_dot_v)) return;
     Surface lobe;
     lobe.normal = s.normal;
     lobe.to_viewer = s.to_viewer;

@@ -220,7 +220,7 @@ PreparedFrame::PreparedFrame(Device& device, SharedResources& shared, const Scen
       images(path.add(passes, view.inputs)) {}
 
 void checkSize(const Device& device, const Size& size) {
-    const auto limit = static_cast<int>(std::min(device.support().mostPixels(), 1u << 24));
+    const auto limit = static_cast<int>(std::min(device.support().maxPixels(), 1u << 24));
     if (size.width > limit || size.height > limit)
         throw std::runtime_error(fmt::format("--size {}x{}: {} draws up to {}x{}", size.width, size.height,
                                              device.info().name, limit, limit));

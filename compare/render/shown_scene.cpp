@@ -53,9 +53,9 @@ void requireTriangles(const Scene& scene, const std::string& where) {
 }
 
 void checkAsked(const std::string& file, const std::string& where, const Settings& settings) {
-    constexpr std::uint64_t most = std::uint64_t{1} << 30;
+    constexpr std::uint64_t max = std::uint64_t{1} << 30;
     const auto check = [&](const std::string& what, std::uint64_t bytes) {
-        if (bytes > most)
+        if (bytes > max)
             throw std::runtime_error(fmt::format(
                 "{}: asks for {}, about {:.1f} GB; a file may ask for 1 GiB, a command line for more", file,
                 oneLine(what), static_cast<double>(bytes) / 1e9));

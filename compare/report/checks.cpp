@@ -17,13 +17,13 @@ namespace {
 
 // Whether less than a tenth of the box reaches a hundredth of white in the image of lit.
 bool isDark(const Image& lit, const PixelBox& box, double exposure) {
-    const double least = 0.01 / exposure;
+    const double min = 0.01 / exposure;
     // About a thousand pixels suffice
     const auto step = [](int extent) { return std::max(extent / 32, 1); };
     int bright = 0, looked = 0;
     for (int y = box.y0; y < box.y1; y += step(box.y1 - box.y0))
         for (int x = box.x0; x < box.x1; x += step(box.x1 - box.x0), ++looked)
-            bright += std::max({lit.at(x, y, 0), lit.at(x, y, 1), lit.at(x, y, 2)}) >= least;
+            bright += std::max({lit.at(x, y, 0), lit.at(x, y, 1), lit.at(x, y, 2)}) >= min;
     return bright * 10 < looked;
 }
 

@@ -26,7 +26,7 @@ namespace {
 // Prints `value`, the measured one or its limit; of a criterion that fails, with the digits that tell it from
 // `other`.
 std::string beside(const Criterion& c, double value, double other) {
-    return digitsApart(value, (c.least ? c.measured < c.limit : c.measured > c.limit) ? other : value);
+    return digitsApart(value, (c.min ? c.measured < c.limit : c.measured > c.limit) ? other : value);
 }
 
 std::string explainedText(const ChannelDiff& channel) {
@@ -131,7 +131,7 @@ output::Table channelTable(const Comparison& comparison, const std::string& id, 
     });
     addCriterion({"limit", Column::number}, either("-", ""), [](const Criterion& criterion) {
         const std::string limit = beside(criterion, criterion.limit, criterion.measured);
-        return either((criterion.least ? ">= " : "") + limit, (criterion.least ? "\u2265 " : "") + limit);
+        return either((criterion.min ? ">= " : "") + limit, (criterion.min ? "\u2265 " : "") + limit);
     });
     add({.title = "used", .where = Column::page, .style = "optional"},
         [](const ChannelDiff* channel) { return usedCell(*channel); });
@@ -153,7 +153,7 @@ Text findingOf(const ChannelDiff& channel, const std::string& card) {
     else if (const auto& c = channel.criterion)
         text.spans.emplace_back(
             fmt::format("{} {}, {} {} allowed", c->metric, beside(*c, c->measured, c->limit),
-                        c->least ? "at least" : "at most", beside(*c, c->limit, c->measured)));
+                        c->min ? "at least" : "at most", beside(*c, c->limit, c->measured)));
     else
         text.spans.emplace_back("differs");
     if (s.different > 0 && s.worst_x >= 0)

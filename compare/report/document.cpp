@@ -64,9 +64,9 @@ Text aboutOf(const Report& report, const ReportLayout& layout, const ReportTexts
 // A box with the first of the items, if there are any; `elsewhere`: where to find the others.
 void addBox(std::vector<Block>& blocks, const char* style, const std::string& heading,
             std::vector<Text> items, const std::string& elsewhere) {
-    constexpr std::size_t most = 40;
+    constexpr std::size_t max = 40;
     if (items.empty()) return;
-    const std::size_t left = items.size() - std::min(items.size(), most);
+    const std::size_t left = items.size() - std::min(items.size(), max);
     items.resize(items.size() - left);
     if (left > 0)
         items.emplace_back(Span(fmt::format("and {} more: {}", left, elsewhere), Span::words, "soft"));

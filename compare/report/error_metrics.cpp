@@ -8,7 +8,7 @@
 namespace diptych {
 namespace {
 
-constexpr int mostDecades = 12;
+constexpr int maxDecades = 12;
 constexpr int wantedBins = 48;
 
 // The smallest and largest covered errors that are finite and above 0; {0, 0} if there are none.
@@ -36,7 +36,7 @@ ErrorHistogram errorHistogram(const Image& errors, const Coverage& coverage) {
     if (high > 0) {
         const int last = static_cast<int>(std::ceil(std::log10(high)));
         histogram.first_decade =
-            std::clamp(static_cast<int>(std::floor(std::log10(low))), last - mostDecades, last - 1);
+            std::clamp(static_cast<int>(std::floor(std::log10(low))), last - maxDecades, last - 1);
         const int decades = last - histogram.first_decade;
         histogram.bins_per_decade = std::clamp(wantedBins / decades, 4, 24);
         histogram.bins.resize(static_cast<std::size_t>(decades * histogram.bins_per_decade));
@@ -59,7 +59,7 @@ ErrorHistogram errorHistogram(const Image& errors, const Coverage& coverage) {
     return histogram;
 }
 
-std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t most, int apart, int first_x,
+std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t max, int apart, int first_x,
                                     int first_y) {
     PixelData left = errors.data;
     std::vector<WorstPixel> worst;
@@ -70,8 +70,8 @@ std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t most, int a
                 left[static_cast<std::size_t>(v) * static_cast<std::size_t>(errors.width) +
                      static_cast<std::size_t>(u)] = 0;
     };
-    if (most > 0 && first_x >= 0 && first_y >= 0 && errors.at(first_x, first_y) > 0) take(first_x, first_y);
-    while (worst.size() < most) {
+    if (max > 0 && first_x >= 0 && first_y >= 0 && errors.at(first_x, first_y) > 0) take(first_x, first_y);
+    while (worst.size() < max) {
         const auto largest = std::ranges::max_element(left);
         if (largest == left.end() || !(*largest > 0)) break;
         const auto i = static_cast<int>(largest - left.begin());

@@ -50,7 +50,7 @@ std::string histogram(const ChannelDiff& channel, const ChannelImages& images) {
         const std::string text = fmt::format(
             "{} to {}: {}{}", size(left), size(right), counted(count, "pixel"),
             i == 0 && errors.smaller > 0 ? fmt::format(", {} of them below", errors.smaller) : "");
-        if (left < cut) panel.bars.push_back({{left, cut}, up, limit ? 0 : mostParts - 1, text});
+        if (left < cut) panel.bars.push_back({{left, cut}, up, limit ? 0 : maxParts - 1, text});
         if (cut < right) panel.bars.push_back({{cut, right}, up, 0, text, true});
     }
     if (limit && *limit > 0)

@@ -30,12 +30,12 @@ Exposure exposureOf(const Report& report, const Comparison& comparison, const Im
 
 std::string exposureLine(const std::vector<Exposure>& all) {
     if (all.empty()) return {};
-    const auto [least, most] = std::ranges::minmax(all, {}, &Exposure::factor);
-    if (least.factor == most.factor) return all.front().because;
+    const auto [min, max] = std::ranges::minmax(all, {}, &Exposure::factor);
+    if (min.factor == max.factor) return all.front().because;
     return fmt::format(
         "exposures from {:.4g} to {:.4g}, automatic; --exposure or --match-exposure FILE sets one for all "
         "pictures",
-        least.factor, most.factor);
+        min.factor, max.factor);
 }
 
 double exposureOfFile(const std::filesystem::path& file) {

@@ -26,7 +26,7 @@ Json valuesAt(const Frame& frame, const ChannelDiff& channel) {
 Json jsonOf(const Criterion& criterion) {
     return {{"figure", criterion.metric},
             {"measured", finiteOrNull(criterion.measured)},
-            {criterion.least ? "least" : "limit", finiteOrNull(criterion.limit)},
+            {criterion.min ? "least" : "limit", finiteOrNull(criterion.limit)},
             {criterion.differing ? "differing_pixels" : "pixels_beyond", criterion.pixels},
             {criterion.differing ? "differing_share" : "share_beyond", criterion.share}};
 }
@@ -43,7 +43,7 @@ Json jsonOf(const std::vector<Granted>& granted) {
 Json jsonOf(const BoundUse& use) {
     return {{"used", finiteOrNull(use.used)},
             {"beyond_pixels", use.beyond},
-            {"most", finiteOrNull(use.most)},
+            {"most", finiteOrNull(use.max)},
             {"mean", finiteOrNull(use.mean)},
             {"pixel", {use.x, use.y}}};
 }
@@ -75,7 +75,7 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     json["unexplained_pixels"] = orNull(channel.unexplained_pixels);
     if (const auto& f = channel.footprints)
         json["footprints"] = {{"smooth", f->smooth},   {"beyond", f->beyond}, {"used", finiteOrNull(f->used)},
-                              {"pixel", {f->x, f->y}}, {"most", f->most},     {"detailed", f->detailed},
+                              {"pixel", {f->x, f->y}}, {"most", f->max},      {"detailed", f->detailed},
                               {"flip", f->flip},       {"edges", f->edges}};
     if (channel.encoding_use) json["encoding"] = jsonOf(*channel.encoding_use);
     if (channel.device_use) json["across_devices"] = jsonOf(*channel.device_use);

@@ -71,7 +71,7 @@ ChannelImages imagesOf(const Report& report, const Comparison& comparison, const
     add(right, images.test);
     if (shown.size() == 2) images.same = files + ".png";
     const Size size = left.settings.size;
-    if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) <= mostPixelsOfValues)
+    if (static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) <= maxPixelsOfValues)
         images.values = files + ".values.js";
     images.scale = scaleFor(mode, exposure, shown);
     if (isCompared(channel.verdict) && channel.stats.different > 0) {

@@ -48,7 +48,7 @@ constexpr const char* partTexts[] = {"part-frames.json", "part-comparisons.json"
                                      "part-junit.xml"};
 
 // Limit for counts of pixels, checks and tests: sums stay exact in 64 bits and in a double.
-constexpr std::uint64_t most_counted = std::uint64_t(1) << 48;
+constexpr std::uint64_t max_counted = std::uint64_t(1) << 48;
 
 std::string partText(const Json& json) {
     return jsonText(json, 1) + "\n";
@@ -120,7 +120,7 @@ Comparison comparisonFrom(const Place& json, std::size_t frames) {
     }
     for (const Place& check : json.at("checks").each())
         comparison.visual_checks.push_back(
-            {kept(check[0].text()), check[1].whole<std::uint64_t>(0, most_counted), {}});
+            {kept(check[0].text()), check[1].whole<std::uint64_t>(0, max_counted), {}});
     return comparison;
 }
 
@@ -212,8 +212,8 @@ ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     std::set<std::string> taken(texts.begin(), texts.end());
     part.sections = namesFrom(json.at("sections"), scene_folder, taken, {".section.js"});
     part.files = namesFrom(json.at("files"), scene_folder, taken, {".png", ".exr", ".values.js"});
-    part.junit.tests = json.at("junit")[0].whole<std::size_t>(0, most_counted);
-    part.junit.failures = json.at("junit")[1].whole<std::size_t>(0, most_counted);
+    part.junit.tests = json.at("junit")[0].whole<std::size_t>(0, max_counted);
+    part.junit.failures = json.at("junit")[1].whole<std::size_t>(0, max_counted);
     part.junit.seconds = json.at("junit")[2].number();
     const std::size_t comparisons = report.comparisons.size(), closer = report.closer_paths.size();
     checkCount(json, "tables", part.tables, comparisons, "comparisons");

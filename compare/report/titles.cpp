@@ -151,11 +151,11 @@ std::string errorText(const SceneError& error) {
                                                   : fmt::format("{}: {}", error.scene, error.message);
 }
 
-std::string listed(const std::vector<std::string>& names, std::size_t most) {
-    if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+std::string listed(const std::vector<std::string>& names, std::size_t max) {
+    if (names.size() <= max) return fmt::format("{}", fmt::join(names, ", "));
     return fmt::format("{} and {} more",
-                       fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most), ", "),
-                       names.size() - most);
+                       fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(max), ", "),
+                       names.size() - max);
 }
 
 namespace {

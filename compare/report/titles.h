@@ -62,7 +62,7 @@ std::vector<GroupedNote> groupedNotes(const Report& report);
 std::string errorText(const SceneError& error);
 
 // "a, b and 3 more": at most `most` of the names.
-std::string listed(const std::vector<std::string>& names, std::size_t most);
+std::string listed(const std::vector<std::string>& names, std::size_t max);
 
 // "pass: all 14 compared channels are within tolerance", "FAIL: lit, normals beyond tolerance", "FAIL: 20
 // of 26 comparisons failed: Box.glb, ... (lit beyond tolerance)". Scenes that could not be rendered come

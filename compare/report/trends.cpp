@@ -77,8 +77,8 @@ void addNoise(EarlierReport& report, const Place& frame) {
     if (!frame.has("noise")) return;
     const Place noise = frame.at("noise");
     for (const auto& [channel, of] : noise.json().items()) {
-        double& most = report.noise[frame.textOr("scene", "") + "\n" + channel];
-        most = std::max(most, 2 * metricIn(Place(of), "max"));
+        double& max = report.noise[frame.textOr("scene", "") + "\n" + channel];
+        max = std::max(max, 2 * metricIn(Place(of), "max"));
     }
 }
 
@@ -106,10 +106,10 @@ std::vector<MovedMetric> movedSince(const Earlier& earlier, const EarlierReport&
         const auto then = earlier.channels.find(channel.name);
         if (then == earlier.channels.end()) continue;
         const auto noise = report.noise.find(earlier.scene + "\n" + channel.name);
-        const double most = channel.noise + (noise == report.noise.end() ? 0 : noise->second);
+        const double max = channel.noise + (noise == report.noise.end() ? 0 : noise->second);
         for (const auto& [name, member] : evaluated) {
             const double from = then->second.at(name), to = channel.*member;
-            if (std::abs(to - from) > most) moved.push_back({channel.name, name, from, to, most});
+            if (std::abs(to - from) > max) moved.push_back({channel.name, name, from, to, max});
         }
     }
     return moved;

@@ -17,7 +17,7 @@
 namespace diptych {
 namespace {
 
-constexpr std::size_t mostExactBytes = std::size_t{1} << 20;
+constexpr std::size_t maxExactBytes = std::size_t{1} << 20;
 
 // The largest finite magnitude; 0 if there is none.
 double largestOf(const Image& image) {
@@ -145,7 +145,7 @@ struct WordOf {
 void valuesScript(const std::string& name, const ChannelValues& values, const Write& write) {
     const Image& first = *values.baseline;
     const int images = values.test ? 2 : 1;
-    const bool small = first.data.size() * sizeof(float) * static_cast<std::size_t>(images) <= mostExactBytes;
+    const bool small = first.data.size() * sizeof(float) * static_cast<std::size_t>(images) <= maxExactBytes;
     const int exponent = exponentFor(std::max(largestOf(first), values.test ? largestOf(*values.test) : 0.0));
     const bool halfIsExact =
         holdsExactly(first, exponent) && (!values.test || holdsExactly(*values.test, exponent));

@@ -20,7 +20,7 @@ struct ChannelValues {
 };
 
 // Larger images get no values: the text would approach half a GiB, the longest string that browsers allow.
-inline constexpr std::size_t mostPixelsOfValues = std::size_t{16} << 20;
+inline constexpr std::size_t maxPixelsOfValues = std::size_t{16} << 20;
 
 // diptychValues("NAME", {...}): width, height, components, images (1 or 2), bits, exact, exponent,
 // errorUnit and `data`. `data` has one text for each plane of W x H words of 16 or 32 bits,

@@ -118,10 +118,10 @@ std::string clockText(double seconds) {
 }
 
 std::string timeLeft(std::chrono::duration<double> elapsed, double fraction) {
-    constexpr double soonest = 2, least = 0.02;
+    constexpr double soonest = 2, min = 0.02;
     // Longer estimates are noise.
     constexpr double longest = 100.0 * 3600;
-    if (!(elapsed.count() >= soonest) || !(fraction >= least)) return "";
+    if (!(elapsed.count() >= soonest) || !(fraction >= min)) return "";
     const double seconds = std::ceil(elapsed.count() * (1 - std::min(fraction, 1.0)) / fraction);
     if (seconds >= longest) return "";
     return clockText(seconds) + " left";

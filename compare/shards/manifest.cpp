@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // Size limit of the program file, which is hashed whole.
-constexpr std::uint64_t most_program_bytes = std::uint64_t(4) << 30;
+constexpr std::uint64_t max_program_bytes = std::uint64_t(4) << 30;
 
 // Folder of a scene's files: "" or a name that diptych gives.
 std::string folderFrom(const JsonAt<Json>& json) {
@@ -41,7 +41,7 @@ Manifest manifestFrom(const JsonAt<Json>& json) {
     manifest.build = json.at("build").text();
     manifest.command = json.at("command").text();
     manifest.plan = json.at("plan").json();
-    const int count = json.at("shard").at("count").whole(1, most_shards);
+    const int count = json.at("shard").at("count").whole(1, max_shards);
     manifest.shard = {json.at("shard").at("index").whole(1, count), count};
     std::set<std::string> folders;
     for (const auto& item : json.at("items").each()) {
@@ -65,7 +65,7 @@ std::string buildName() {
         const std::string commit = commitName();
         return commit != "unknown" ? fmt::format("{}, commit {}", versionName(), commit)
                                    : fmt::format("{}, program {}", versionName(),
-                                                 hashOf(textIn("/proc/self/exe", most_program_bytes)));
+                                                 hashOf(textIn("/proc/self/exe", max_program_bytes)));
     }();
     return name;
 }

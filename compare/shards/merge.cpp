@@ -25,8 +25,8 @@ struct Found {
 };
 
 std::string shortened(std::string text) {
-    constexpr std::size_t most = 60;
-    return text.size() <= most ? text : text.substr(0, most) + "...";
+    constexpr std::size_t max = 60;
+    return text.size() <= max ? text : text.substr(0, max) + "...";
 }
 
 // Describes how another manifest's command differs from ours.

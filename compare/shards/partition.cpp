@@ -114,8 +114,8 @@ Shard shardOf(const std::string& word, const Variables& environment) {
     if (!count || !index)
         throw std::runtime_error(
             fmt::format("--shard {}: give I/N, counted from 1, e.g. 2/16; or slurm, or slurm/N", word));
-    if (*count > most_shards)
-        throw std::runtime_error(fmt::format("--shard {}: at most {} shards", word, most_shards));
+    if (*count > max_shards)
+        throw std::runtime_error(fmt::format("--shard {}: at most {} shards", word, max_shards));
     if (*count < 1 || *index < 1 || *index > *count)
         throw std::runtime_error(
             fmt::format("--shard {}: there is no shard {} of {}; the first is 1", word, *index, *count));
@@ -195,11 +195,11 @@ std::vector<int> partition(const std::vector<double>& weights, int count) {
     std::vector<Load> loads(static_cast<std::size_t>(count));
     std::vector<int> shards(weights.size());
     for (const std::size_t i : order) {
-        const auto least =
+        const auto min =
             std::ranges::min_element(loads, {}, [](const Load& l) { return std::tuple(l.weight, l.scenes); });
-        least->weight += weights[i];
-        ++least->scenes;
-        shards[i] = static_cast<int>(least - loads.begin()) + 1;
+        min->weight += weights[i];
+        ++min->scenes;
+        shards[i] = static_cast<int>(min - loads.begin()) + 1;
     }
     return shards;
 }

@@ -21,7 +21,7 @@ struct Shard {
 };
 
 // Limits the size of shard lists. Slurm's default limit is 1,001 tasks per array.
-inline constexpr int most_shards = 1 << 16;
+inline constexpr int max_shards = 1 << 16;
 
 // Value of an environment variable; empty if not set.
 using Variables = std::function<std::optional<std::string>(const char*)>;

@@ -30,8 +30,8 @@ double weightOf(const Settings& settings) {
 // Timed frames in each timing block of a row. The first block runs when the row is rendered, the others
 // after all rows.
 std::vector<int> blockSizes(int runs) {
-    constexpr int most = 5;  // each block allocates the row's images again
-    const int at_once = std::max(4, (runs + most - 1) / most);
+    constexpr int max = 5;  // each block allocates the row's images again
+    const int at_once = std::max(4, (runs + max - 1) / max);
     std::vector<int> blocks{std::min((runs + 1) / 2, at_once)};
     for (int rest = runs - blocks.front(); rest > 0; rest -= blocks.back())
         blocks.push_back(std::min(rest, at_once));
@@ -167,7 +167,7 @@ void Sweep::timeAgain(const Stage& stage) {
             for (count = 0; at + count < round.size(); ++count) {
                 const TradeoffRow& row = *round[at + count];
                 bytes += static_cast<std::uint64_t>(row[Measure::memory]);
-                if (count > 0 && bytes > experiment::PreparedPool::mostBytes) break;
+                if (count > 0 && bytes > experiment::PreparedPool::maxBytes) break;
                 done += weightOf(row.settings);
                 before += row.drawing_ms;
             }

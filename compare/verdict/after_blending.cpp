@@ -73,7 +73,7 @@ AfterBlending ofPaths(const FramePair& pair, const Blending& a, const Blending& 
 AfterBlending ofReference(const FramePair& pair, const Blending& a, const Blending& b) {
     AfterBlending found;
     const DebugMode& lit = debugMode(Channel::lit);
-    const double most = derivedTolerance(lit, pair).max;
+    const double max = derivedTolerance(lit, pair).max;
     const std::vector<double> before = openErrors(lit, pair, *a.before, *b.before),
                               after = openErrors(lit, pair, *a.after, *b.after);
     std::size_t next = 0;
@@ -81,9 +81,9 @@ AfterBlending ofReference(const FramePair& pair, const Blending& a, const Blendi
         if (!pair.coverage.covered[i]) continue;
         const std::size_t k = next++;
         found.covered += isBlended(a, i) || isBlended(b, i) ? 1 : 0;
-        const bool differed = !(before[k] <= most);
+        const bool differed = !(before[k] <= max);
         found.before += differed ? 1 : 0;
-        if (!differed && !(after[k] <= most)) take(found, after[k], i, a.after->width);
+        if (!differed && !(after[k] <= max)) take(found, after[k], i, a.after->width);
     }
     found.allowed = (found.covered + 999) / 1000;
     return found;

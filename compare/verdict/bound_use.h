@@ -12,10 +12,10 @@
 namespace diptych {
 
 struct BoundUse {
-    double used = 0;            // largest error divided by its pixel's bound; fails above 1
-    int x = -1, y = -1;         // its pixel
-    std::uint64_t beyond = 0;   // pixels with an error above their bound
-    double most = 0, mean = 0;  // of the finite bounds, in the channel's error kind
+    double used = 0;           // largest error divided by its pixel's bound; fails above 1
+    int x = -1, y = -1;        // its pixel
+    std::uint64_t beyond = 0;  // pixels with an error above their bound
+    double max = 0, mean = 0;  // of the finite bounds, in the channel's error kind
 };
 
 // For one pixel: its error divided by its bound (0 without an error), and the bound.
@@ -35,7 +35,7 @@ BoundUse boundUse(const Coverage& coverage, int width, const Of& of) {
         if (!coverage.covered[i]) continue;
         const auto [share, bound] = of(i);
         if (std::isfinite(bound)) {
-            use.most = std::max(use.most, bound);
+            use.max = std::max(use.max, bound);
             use.mean += bound;
         }
         if (share == 0) continue;

@@ -41,11 +41,11 @@ Criterion criterionOf(const ChannelDiff& channel, std::optional<std::uint64_t> b
                 .pixels = channel.stats.different,
                 .differing = true};
     }
-    const bool most = channel.tolerance.most_pixels;
-    return {.metric = !most                  ? "max"
+    const bool max = channel.tolerance.max_pixels;
+    return {.metric = !max                   ? "max"
                       : channel.certain_p999 ? "p99.9 of the excess"
                                              : "p99.9",
-            .measured = most ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max,
+            .measured = max ? channel.certain_p999.value_or(channel.stats.p999) : channel.stats.max,
             .limit = channel.tolerance.max,
             .pixels = beyond ? *beyond : measurement.pixelsAbove(channel.tolerance.max)};
 }
@@ -85,7 +85,7 @@ std::string faultOf(const ChannelDiff& channel) {
     const std::string measured = digitsApart(c.measured, c.limit, 4),
                       limit = digitsApart(c.limit, c.measured, 4);
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
-    return channel.tolerance.most_pixels
+    return channel.tolerance.max_pixels
                ? fmt::format("{} of the pixels exceed {}, and at most 0.1 % may: {} is {}{}", share, limit,
                              c.metric, measured,
                              channel.certain_p999 ? "; excess: the error minus the reference's uncertainty "
@@ -120,8 +120,8 @@ void showExcess(ChannelDiff& channel, const FramePair& pair, const std::vector<d
     std::size_t next = 0;
     for (std::size_t i = 0; i < shown->pixels(); ++i)
         if (pair.coverage.covered[i]) shown->data[i] = static_cast<float>(excess[next++]);
-    if (const auto most = std::ranges::max_element(shown->data); most != shown->data.end() && *most > 0) {
-        const auto at = static_cast<int>(most - shown->data.begin());
+    if (const auto max = std::ranges::max_element(shown->data); max != shown->data.end() && *max > 0) {
+        const auto at = static_cast<int>(max - shown->data.begin());
         channel.stats.worst_x = at % like.width;
         channel.stats.worst_y = at / like.width;
     }

@@ -29,7 +29,7 @@ PathError pathErrorOf(const DebugMode& mode, const Image& reference, const Image
 
 std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image, 2>& errors,
                                        const Coverage& covered, const std::vector<std::string>& names) {
-    constexpr std::size_t most = 8;
+    constexpr std::size_t max = 8;
     std::map<int, MaterialError> found;
     for (std::size_t i = 0; i < ids.pixels(); ++i) {
         if (!covered.covered[i]) continue;
@@ -51,7 +51,7 @@ std::vector<MaterialError> materialsOf(const Image& ids, const std::array<Image,
         const double weight = std::abs(m.mean[0] - m.mean[1]) * static_cast<double>(m.pixels);
         return std::isnan(weight) ? std::numeric_limits<double>::infinity() : weight;
     });
-    if (materials.size() > most) materials.resize(most);
+    if (materials.size() > max) materials.resize(max);
     return materials;
 }
 
@@ -99,8 +99,8 @@ CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
         std::max(1e-3 * std::min(first, second), meanUncertainty(referenceFrame, reference, covered));
     if (std::abs(first - second) > known || std::isinf(first) != std::isinf(second)) {
         channel.closer = first < second ? 0 : 1;
-        const double least = std::min(first, second);
-        channel.by = least > 0 ? std::max(first, second) / least : std::numeric_limits<double>::infinity();
+        const double min = std::min(first, second);
+        channel.by = min > 0 ? std::max(first, second) / min : std::numeric_limits<double>::infinity();
     }
     if (const Image* const ids = findChannel(referenceFrame, Channel::material_id))
         channel.materials = materialsOf(*ids, errors, covered, names);

@@ -149,9 +149,9 @@ void leaveOutOtherSurfaces(const FramePair& pair, Comparison& comparison) {
 // `shown`: fraction of pixels that show a surface, before the command line's exclusions.
 std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& coverage, double shown) {
     // Below these, background or black pixels decide most of the verdict.
-    constexpr double least = 0.01, least_lit = 0.05;
+    constexpr double min = 0.01, min_lit = 0.05;
     if (coverage.known && shown == 0) return "both images are empty: no surface is in view";
-    if (coverage.known && shown < least)
+    if (coverage.known && shown < min)
         return fmt::format("only {} of the image shows the scene", percentText(shown));
     const auto litOf = [&](const Frame& frame) {
         const Image* const lit = findChannel(frame, Channel::lit);
@@ -159,8 +159,8 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
     };
     const double lit = std::max(litOf(left), litOf(right));
     if (lit == 0) return "both images are black: no light reaches a visible surface";
-    return lit < least_lit ? fmt::format("light reaches only {} of the visible surfaces", percentText(lit))
-                           : std::string();
+    return lit < min_lit ? fmt::format("light reaches only {} of the visible surfaces", percentText(lit))
+                         : std::string();
 }
 
 // In mode scene: how many pixels of which channel are compared in which way; else empty.
@@ -186,7 +186,7 @@ std::string waysOfEvaluating(const std::vector<ChannelDiff>& channels) {
 std::string looselyEvaluated(const std::vector<ChannelDiff>& channels) {
     std::vector<std::string> words;
     for (const ChannelDiff& channel : channels)
-        if (const auto& f = channel.footprints; f && f->closeShare() < leastCloseShare)
+        if (const auto& f = channel.footprints; f && f->closeShare() < minCloseShare)
             words.push_back(fmt::format(
                 "{} ({} of {} pixels{})", channel.mode->name, f->smooth, f->pixels(),
                 f->detailed > 0 ? fmt::format(", the others by a mean FLIP of {}", detailFlip) : ""));
@@ -322,7 +322,7 @@ void readEmptiness(const FramePair& pair, double shown, const CompareOptions& op
     for (const ChannelDiff& channel : comparison.channels) {
         if (channel.granted.empty()) continue;
         const std::string text = grantedText(*channel.mode, channel.granted);
-        if (grantedMean(channel.granted) > mostGranted && channel.rule.empty() &&
+        if (grantedMean(channel.granted) > maxGranted && channel.rule.empty() &&
             channel.verdict == Verdict::pass)
             weaken(text);
         else

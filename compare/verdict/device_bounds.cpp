@@ -23,15 +23,15 @@ constexpr double kink = 2;
 std::array<double, 256> decodeShares(const AcrossDevices& across) {
     std::array<double, 256> shares{};
     const auto &a = across.devices[0].texels, &b = across.devices[1].texels;
-    double most = 0;
+    double max = 0;
     for (std::size_t code = 255; code > 0; --code) {
         const double exact = exactSrgb(code), code_step = exact - exactSrgb(code - 1),
                      allowed = code < 255 ? std::max(code_step, exactSrgb(code + 1) - exact) : code_step,
                      measured = a && b ? std::abs(double{a->srgb[code]} - double{b->srgb[code]}) : allowed;
-        most = std::max(most, std::min(allowed, measured) / exact);
-        shares[code] = most;
+        max = std::max(max, std::min(allowed, measured) / exact);
+        shares[code] = max;
     }
-    shares[0] = most;
+    shares[0] = max;
     return shares;
 }
 
@@ -99,13 +99,13 @@ double PlaceBound::operator()(std::size_t i) const {
 }
 
 double PlaceBound::change(const Image& image, std::size_t i, unsigned seen) const {
-    double most = 0;
+    double max = 0;
     aroundPixel(image, i, [&](std::size_t j, unsigned bit) {
         if ((seen & bit) == 0) return;
         const double to = apart(mode_, image.pixel(i), image.pixel(j));
-        if (std::isfinite(to)) most = std::max(most, to);
+        if (std::isfinite(to)) max = std::max(max, to);
     });
-    return most;
+    return max;
 }
 
 Shadowed::Shadowed(const FramePair& pair) {
@@ -125,8 +125,8 @@ bool Shadowed::differs(std::size_t i) const {
 double Shadowed::relative(std::size_t i) const {
     double share = 0;
     for (const auto& [a, b, baseline] : images_)
-        if (const double least = std::min(*a->pixel(i), *b->pixel(i)); least > 0)
-            share += metrics::distance(*a->pixel(i), *b->pixel(i)) / least;
+        if (const double min = std::min(*a->pixel(i), *b->pixel(i)); min > 0)
+            share += metrics::distance(*a->pixel(i), *b->pixel(i)) / min;
     return share;
 }
 
@@ -244,11 +244,11 @@ double DeviceBounds::blendedApart(std::size_t i) const {
 }
 
 double DeviceBounds::toNeighbours(const Image& image, std::size_t i) const {
-    double most = 0;
+    double max = 0;
     aroundPixel(image, i, [&](std::size_t j, unsigned) {
-        most = std::max(most, metrics::distance(image.pixel(i), image.pixel(j), mode_.width));
+        max = std::max(max, metrics::distance(image.pixel(i), image.pixel(j), mode_.width));
     });
-    return most;
+    return max;
 }
 
 std::string DeviceBounds::because() const {
@@ -332,16 +332,16 @@ double DeviceBounds::darkened(std::size_t i) const {
 
 double DeviceBounds::textures(std::size_t i) const {
     if (!texels_) return 0;
-    double most = *texels_->pixel(i);
+    double max = *texels_->pixel(i);
     if (isColor()) {
         for (int c = 0; c < mode_.width; ++c)
-            most = std::max(most, *texels_->pixel(i) + decoded(std::abs(double{baseline_.pixel(i)[c]})));
-        most += filterRounding(across_, true) + darkened(i);
+            max = std::max(max, *texels_->pixel(i) + decoded(std::abs(double{baseline_.pixel(i)[c]})));
+        max += filterRounding(across_, true) + darkened(i);
     }
     // Linear texels; they mix F0.
     if (!isColor() || mode_.texels == TexelUse::scaled_color)
-        most += filterRounding(across_, false) * per_texel_;
-    return most;
+        max += filterRounding(across_, false) * per_texel_;
+    return max;
 }
 
 std::string DeviceBounds::decoding() const {
@@ -358,7 +358,7 @@ BoundUse deviceUse(const DebugMode& mode, const FramePair& pair) {
 }
 
 Tolerance deviceTolerance(const DebugMode& mode, const FramePair& pair, const BoundUse& use) {
-    return {use.most, DeviceBounds(mode, pair).because()};
+    return {use.max, DeviceBounds(mode, pair).because()};
 }
 
 }  // namespace diptych

@@ -21,7 +21,7 @@ double squareBound(unsigned bits);
 
 // For values with an exponent: bound relative to the largest component, and the smallest absolute bound.
 struct FloatBound {
-    double relative, least;
+    double relative, min;
 };
 FloatBound radianceBound(unsigned bits);  // of its mantissa
 FloatBound halfBound(unsigned bits);      // without a sign

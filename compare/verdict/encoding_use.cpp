@@ -28,7 +28,7 @@ PixelUse componentsUse(const float* read, const float* own, int components, cons
 // has a code of its own.
 PixelUse floatUse(const float* read, const float* own, int components, FloatBound of, double slack) {
     const double size = metrics::largestFinite(own, components);
-    const double bound = size > 0 ? std::max(size * of.relative, of.least) + size * slack : 0;
+    const double bound = size > 0 ? std::max(size * of.relative, of.min) + size * slack : 0;
     return {pixelUse(metrics::distance(read, own, components), bound).share, size > 0 ? bound / size : 0};
 }
 

@@ -87,7 +87,7 @@ public:
                 detailed[i] = 1;
                 continue;
             }
-            result.most = std::max(result.most, bound);
+            result.max = std::max(result.max, bound);
             const double share = error == 0          ? 0
                                  : std::isinf(error) ? error  // whatever its bound
                                                      : error / std::max(bound, 0.0);
@@ -102,8 +102,8 @@ public:
         result.smooth = used.size();
         // Wide bounds of glass do not raise the number of other pixels that may be beyond theirs.
         // Filtered alpha masks may show the background at whole pixels of a hole's edge.
-        const double most = pair_.needs.alpha_mask ? 0.99 : 0.999;
-        result.used = std::max(nearestRank(std::move(used), most), nearestRank(std::move(others_used), most));
+        const double max = pair_.needs.alpha_mask ? 0.99 : 0.999;
+        result.used = std::max(nearestRank(std::move(used), max), nearestRank(std::move(others_used), max));
         const auto others = static_cast<std::uint64_t>(std::ranges::count(detailed, 1));
         if (isGeometry(mode_) || mode_.kind == ChannelKind::id)
             result.edges = others;
@@ -172,10 +172,10 @@ private:
             case TexelUse::scaled_color: {
                 if (mode.error_kind == ErrorKind::relative)
                     return shares_[1] * metrics::largestFinite(value, mode.width);
-                double most = 0;
-                for (int c = 0; c < mode.width; ++c) most = std::max(most, srgbBound(value[c]));
+                double max = 0;
+                for (int c = 0; c < mode.width; ++c) max = std::max(max, srgbBound(value[c]));
                 // The specular texture scales F0, and metallic mixes it with albedo.
-                return most + (mode.texels == TexelUse::scaled_color ? code : 0);
+                return max + (mode.texels == TexelUse::scaled_color ? code : 0);
             }
         }
         return 0;
@@ -323,7 +323,7 @@ Tolerance footprintTolerance(const Footprints& footprints) {
         because += fmt::format("; the other {} may have a mean FLIP of {} and have {:.3g}",
                                footprints.detailed, detailFlip, footprints.flip);
     if (footprints.edges > 0) because += fmt::format("; {} at edges have no limit", footprints.edges);
-    return {footprints.most, because, true};
+    return {footprints.max, because, true};
 }
 
 double Footprints::closeShare() const {

@@ -27,7 +27,7 @@ struct Footprints {
     // Error over the bound at 99.9 % of the smooth pixels, with or without those of glass, whichever is more.
     double used = 0;
     int x = -1, y = -1;          // smooth pixel with the highest use
-    double most = 0;             // largest bound, in the channel's error kind
+    double max = 0;              // largest bound, in the channel's error kind
     std::uint64_t detailed = 0;  // pixels compared by FLIP
     double flip = 0;             // mean FLIP of these
     std::uint64_t edges = 0;     // pixels not compared, of channels that are no image
@@ -37,7 +37,7 @@ struct Footprints {
 };
 
 // If fewer pixels have bounds of their own, FLIP alone decides, and passes even 0.3 of the light.
-inline constexpr double leastCloseShare = 0.01;
+inline constexpr double minCloseShare = 0.01;
 
 // Channels by which footprints() identifies a surface in two images. Both need all of them, whichever are
 // compared.

@@ -29,6 +29,6 @@ double grantedMean(const std::vector<Granted>& granted);
 std::string grantedText(const DebugMode& mode, const std::vector<Granted>& granted);
 
 // Larger means are a warning, and a failure with --strict.
-inline constexpr double mostGranted = 0.05;
+inline constexpr double maxGranted = 0.05;
 
 }  // namespace diptych

@@ -281,9 +281,9 @@ void findWorst(const ImageDiff& diff, ImageChannelDiff& channel) {
     if (channel.measurement->stats().different == 0) return;
     const DecidingErrors deciding = decidingErrors(diff, channel);
     const Image& errors = *deciding.image;
-    const auto most = std::max_element(errors.data.begin(), errors.data.end());
-    if (!(*most > 0)) return;
-    const auto at = static_cast<int>(most - errors.data.begin());
+    const auto max = std::max_element(errors.data.begin(), errors.data.end());
+    if (!(*max > 0)) return;
+    const auto at = static_cast<int>(max - errors.data.begin());
     channel.worst_x = at % errors.width;
     channel.worst_y = at / errors.width;
 }

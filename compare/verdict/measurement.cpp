@@ -183,12 +183,12 @@ std::shared_ptr<const Image> Measurement::flipErrors() const {
     return flip() ? std::shared_ptr<const Image>(flip_, &flip_->error) : nullptr;
 }
 
-std::uint64_t Measurement::pixelsAbove(double most) const {
+std::uint64_t Measurement::pixelsAbove(double max) const {
     const PixelError error(pair_.error_kind, pair_.kind, pair_.reference, *pair_.coverage);
     std::uint64_t count = 0;
     eachPair(pair_.test, pair_.reference, 0, pair_.reference.height,
              [&](std::size_t i, const float* test, const float* reference) {
-                 if (pair_.coverage->covered[i]) count += !(error(test, reference) <= most);
+                 if (pair_.coverage->covered[i]) count += !(error(test, reference) <= max);
              });
     return count;
 }

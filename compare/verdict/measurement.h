@@ -42,7 +42,7 @@ public:
 
     // Covered pixels whose error in the channel's error kind exceeds `most` (NaN against a number always
     // does).
-    std::uint64_t pixelsAbove(double most) const;
+    std::uint64_t pixelsAbove(double max) const;
 
     double shareOf(std::uint64_t pixels) const;  // fraction of the covered pixels, 0 to 1
 

@@ -47,10 +47,10 @@ Condition bound(const std::string& metric, const Json& value) {
 Condition share(const Json& value) {
     if (!value.is_object() || value.size() != 2 || !value.contains("above") || !value.contains("share"))
         fail("failing must be { \"above\": ERROR, \"share\": 0 to 1 }");
-    const double above = numberOf(value["above"], "above"), most = numberOf(value["share"], "share");
+    const double above = numberOf(value["above"], "above"), max = numberOf(value["share"], "share");
     if (!(above >= 0)) fail(fmt::format("failing: above {} is negative; give 0 or more", above));
-    if (!(most >= 0 && most <= 1)) fail(fmt::format("failing: share {} is not between 0 and 1", most));
-    return {Condition::Kind::bound, {FAILING, above}, most, {}};
+    if (!(max >= 0 && max <= 1)) fail(fmt::format("failing: share {} is not between 0 and 1", max));
+    return {Condition::Kind::bound, {FAILING, above}, max, {}};
 }
 
 class ConditionReader {
@@ -150,9 +150,9 @@ std::optional<std::string> boundViolation(const Condition& c, const Measured& me
     const std::optional<double> value = measured(c.quantity);
     const std::string what = quantityText(c.quantity);
     if (!value) return fmt::format("{} is not defined for this channel", what);
-    const bool least = isBetterIfMore(c.quantity.metric);
-    if (least ? *value >= c.limit : *value <= c.limit) return {};
-    return fmt::format("{} {} {} {}", what, digitsApart(*value, c.limit, 4), least ? "is below" : "exceeds",
+    const bool min = isBetterIfMore(c.quantity.metric);
+    if (min ? *value >= c.limit : *value <= c.limit) return {};
+    return fmt::format("{} {} {} {}", what, digitsApart(*value, c.limit, 4), min ? "is below" : "exceeds",
                        digitsApart(c.limit, *value, 4));
 }
 
@@ -168,8 +168,8 @@ std::string joined(const Condition& condition, const char* word) {
 }  // namespace
 
 double usedOf(const Criterion& criterion) {
-    const auto [over, under] = criterion.least ? std::pair{criterion.limit, criterion.measured}
-                                               : std::pair{criterion.measured, criterion.limit};
+    const auto [over, under] = criterion.min ? std::pair{criterion.limit, criterion.measured}
+                                             : std::pair{criterion.measured, criterion.limit};
     if (over == 0 || over == under) return over == 0 ? 0 : 1;
     return under > 0 ? over / under : std::numeric_limits<double>::infinity();
 }
@@ -207,7 +207,7 @@ std::optional<Criterion> decidingBound(const Condition& condition, const Measure
         return Criterion{.metric = quantityText(condition.quantity),
                          .measured = *value,
                          .limit = condition.limit,
-                         .least = isBetterIfMore(condition.quantity.metric),
+                         .min = isBetterIfMore(condition.quantity.metric),
                          .above = share ? std::optional(condition.quantity.above) : std::nullopt};
     }
     std::optional<Criterion> deciding;
@@ -238,10 +238,10 @@ std::optional<double> boundOn(const Condition& condition, std::string_view metri
     if (condition.kind == Condition::Kind::bound)
         return condition.quantity.metric == metric ? std::optional(condition.limit) : std::nullopt;
     if (condition.kind == Condition::Kind::any) return {};
-    std::optional<double> least;
+    std::optional<double> min;
     for (const Condition& part : condition.parts)
-        if (const auto bound = boundOn(part, metric)) least = std::min(*bound, least.value_or(*bound));
-    return least;
+        if (const auto bound = boundOn(part, metric)) min = std::min(*bound, min.value_or(*bound));
+    return min;
 }
 
 std::string conditionText(const Condition& condition) {

@@ -41,7 +41,7 @@ struct Criterion {
     std::string metric;
     double measured = 0;
     double limit = 0;               // largest value that passes; with `least` the smallest
-    bool least = false;             // for psnr and ssim
+    bool min = false;               // for psnr and ssim
     std::optional<double> above{};  // if the metric is a fraction of pixels: their error threshold
     // Covered pixels out of tolerance; for a metric of the whole channel (a mean, FLIP), those that differ
     // at all.

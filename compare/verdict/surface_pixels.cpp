@@ -182,10 +182,10 @@ SurfacePixels surfacePixels(const FramePair& pair) {
         found.others[i] = other || shade ? 1 : 0;
     }
     const double step = stepOf(pair.across->devices, &DevicePrecision::sub_pixel_bits);
-    found.triangles.most = mostOf(edgesOfPixel * step, found.triangles.edges + narrow);
+    found.triangles.max = mostOf(edgesOfPixel * step, found.triangles.edges + narrow);
     // Each texel of a filter across an edge may show another triangle.
     const double texels = pair.baseline.settings.shadow_kernel + 1;
-    found.shadows.most = mostOf(edgesOfPixel * step * texels, found.shadows.edges);
+    found.shadows.max = mostOf(edgesOfPixel * step * texels, found.shadows.edges);
     return found;
 }
 
@@ -195,9 +195,9 @@ std::string SurfacePixels::fault() const {
         if (of->strays > 0)
             return fmt::format("the other device shows {} at {} not beside {}, the first at {},{}", shows,
                                counted(of->strays, "pixel"), edge, of->x, of->y);
-        if (of->count > of->most)
+        if (of->count > of->max)
             return fmt::format("the other device shows {} at {}; tolerance: {} of the {} beside {}", shows,
-                               counted(of->count, "pixel"), of->most, counted(of->edges, "pixel"), edge);
+                               counted(of->count, "pixel"), of->max, counted(of->edges, "pixel"), edge);
     }
     return {};
 }
@@ -206,10 +206,10 @@ std::string SurfacePixels::describe() const {
     std::string text = fmt::format(
         "not compared: {} where the other device shows another triangle, all beside an edge (tolerance: {} "
         "of {})",
-        counted(triangles.count, "pixel"), triangles.most, triangles.edges);
+        counted(triangles.count, "pixel"), triangles.max, triangles.edges);
     if (shadows.edges > 0)
         text += fmt::format("; {} in another shadow, all beside a shadow boundary (tolerance: {} of {})",
-                            shadows.count, shadows.most, shadows.edges);
+                            shadows.count, shadows.max, shadows.edges);
     if (tied > 0) text += fmt::format("; {} where two surfaces have the same depth", tied);
     return text;
 }

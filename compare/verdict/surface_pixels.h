@@ -20,7 +20,7 @@ struct SurfacePixels {
     struct Differing {
         std::uint64_t count = 0;   // pixels that differ
         std::uint64_t edges = 0;   // pixels beside an edge in either image
-        std::uint64_t most = 0;    // the largest permitted number
+        std::uint64_t max = 0;     // the largest permitted number
         std::uint64_t strays = 0;  // pixels that differ and are not beside an edge
         int x = -1, y = -1;        // the first stray
     };

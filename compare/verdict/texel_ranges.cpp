@@ -61,7 +61,7 @@ Factors factorsOf(const Material& m, std::size_t slot) {
         case gpu::SLOT_anisotropy:
             return {1, 1, m.anisotropy, 0};
         case gpu::SLOT_iridescence_thickness:
-            return {0, std::abs(double{m.iridescence_thickness_most} - m.iridescence_thickness_least), 0, 0};
+            return {0, std::abs(double{m.iridescence_thickness_max} - m.iridescence_thickness_min), 0, 0};
         default:
             break;
     }
@@ -124,15 +124,15 @@ void addCombined(std::vector<Use>& uses, const Material& m, std::size_t slot, co
                         true});
     if (slot == gpu::SLOT_thickness && diffusesThroughVolume(m)) {
         const glm::vec3& c = m.attenuation_color;  // the steepest change of exp(thickness log(color))
-        const double least = std::max(double{std::min({c.x, c.y, c.z})}, 1e-37);
+        const double min = std::max(double{std::min({c.x, c.y, c.z})}, 1e-37);
         uses.push_back({Channel::diffuse_transmission_color,
                         {0,
-                         -std::log(least) * m.thickness / m.attenuation_distance *
+                         -std::log(min) * m.thickness / m.attenuation_distance *
                              largestComponent(m.diffuse_transmission_color),
                          0, 0}});
     }
     if (slot == gpu::SLOT_iridescence) {
-        const double thickest = std::max(m.iridescence_thickness_least, m.iridescence_thickness_most);
+        const double thickest = std::max(m.iridescence_thickness_min, m.iridescence_thickness_max);
         uses.push_back({Channel::iridescence_ior, {double{m.iridescence_ior}, 0, 0, 0}, true});
         uses.push_back({Channel::iridescence_thickness, {thickest, 0, 0, 0}, true});
     }
@@ -151,16 +151,16 @@ std::vector<Use> usesOf(const Material& m, std::size_t slot) {
 
 // Range of texels' components.
 struct TexelRange {
-    glm::dvec4 least{std::numeric_limits<double>::infinity()}, most{-std::numeric_limits<double>::infinity()};
+    glm::dvec4 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
 
     // Largest difference that it makes to a channel. `weight`: by how much two means of the texels may
     // differ, as a fraction of the range.
     double differs(const Use& use, double weight) const {
         double most_of_all = 0;
         for (int c = 0; c < 4; ++c) {
-            const double size = most[c] - least[c], part = !use.removes                ? weight * size
-                                                           : least[c] <= 0 && size > 0 ? 1
-                                                                                       : 0;
+            const double size = max[c] - min[c], part = !use.removes              ? weight * size
+                                                        : min[c] <= 0 && size > 0 ? 1
+                                                                                  : 0;
             most_of_all = std::max(most_of_all, use.factor[static_cast<std::size_t>(c)] * part);
         }
         return most_of_all;
@@ -169,7 +169,7 @@ struct TexelRange {
 
 // Range of the distance from a position to the next pixel, texels of level 0.
 struct PixelTexels {
-    double least = 0, most = 0;
+    double min = 0, max = 0;
 };
 
 // A texture's mip levels; texels are read in linear light.
@@ -196,8 +196,8 @@ public:
                 std::clamp(std::floor(level), 0.0, static_cast<double>(count_ - 1)));
         };
         TexelRange range;
-        const std::size_t first = levelOf(std::log2(std::max(texels.least, 1e-9)) - levelBelow),
-                          last = levelOf(std::log2(std::max(texels.most, 1e-9)) + levelAbove + 1);
+        const std::size_t first = levelOf(std::log2(std::max(texels.min, 1e-9)) - levelBelow),
+                          last = levelOf(std::log2(std::max(texels.max, 1e-9)) + levelAbove + 1);
         for (std::size_t k = first; k <= last; ++k) {
             const int width = chain_.width(k), height = chain_.height(k);
             const auto x = static_cast<long long>(std::floor(uv.x * width)),
@@ -238,8 +238,8 @@ private:
                 const auto code = std::to_integer<std::size_t>(bytes[i]);
                 value = c == 3 ? linear_[code] : color_[code];
             }
-            range.least[c] = std::min(range.least[c], value);
-            range.most[c] = std::max(range.most[c], value);
+            range.min[c] = std::min(range.min[c], value);
+            range.max[c] = std::max(range.max[c], value);
         }
     }
 
@@ -259,7 +259,7 @@ std::optional<PixelTexels> texelsOfPixel(const Image& uv, const SurfaceAround& s
     const int x = static_cast<int>(here) % uv.width, y = static_cast<int>(here) / uv.width;
     PixelTexels texels;
     for (const int axis : {0, 1}) {
-        double least = std::numeric_limits<double>::infinity(), most = 0;
+        double min = std::numeric_limits<double>::infinity(), max = 0;
         for (const int side : {-1, 1}) {
             const int u = x + (axis == 0 ? side : 0), v = y + (axis == 1 ? side : 0);
             if (u < 0 || v < 0 || u >= uv.width || v >= uv.height) continue;
@@ -270,11 +270,11 @@ std::optional<PixelTexels> texelsOfPixel(const Image& uv, const SurfaceAround& s
             const double apart = std::hypot((slot.u.x * du + slot.u.y * dv) * image.width,
                                             (slot.v.x * du + slot.v.y * dv) * image.height);
             const double other = surface.turned(here, there) > 6 ? 2 : 1;
-            least = std::min(least, apart / other);
-            most = std::max(most, apart * other);
+            min = std::min(min, apart / other);
+            max = std::max(max, apart * other);
         }
-        if (std::isinf(least)) return {};
-        texels = {std::max(texels.least, least), std::max(texels.most, most)};
+        if (std::isinf(min)) return {};
+        texels = {std::max(texels.min, min), std::max(texels.max, max)};
     }
     return texels;
 }
@@ -320,8 +320,8 @@ std::map<Channel, Image> texelRanges(const Scene& scene, const Frame& frame,
                     range = levels.rangeAt(place, *texels);
                     // Magnified: two steps of the weights, and the movement of the position by a vertex
                     // step.
-                    if (texture.sampler.magnify_linear && std::log2(texels->most) + levelAbove < 0)
-                        weight = std::min(1.0, 2 * (weighed + placed * texels->most));
+                    if (texture.sampler.magnify_linear && std::log2(texels->max) + levelAbove < 0)
+                        weight = std::min(1.0, 2 * (weighed + placed * texels->max));
                 }
                 for (const Use& use : uses)
                     *ranges.at(use.mode).pixel(i) += static_cast<float>(range.differs(use, weight));

@@ -23,11 +23,11 @@ namespace {
 // Tolerance of values with an exponent: half a step relative to the value, or half of the smallest step,
 // which is `least`.
 Tolerance floatTolerance(const DebugMode& mode, const FramePair& pair, const Tolerance& relative,
-                         const Tolerance& least) {
+                         const Tolerance& min) {
     const Image& baseline = pair.baseline.channels.at(mode.channel);
     const double floor = PixelError(mode.error_kind, mode.kind, baseline, pair.coverage).floor();
-    const double smallest = floor > 0 ? least.max / floor : 0;
-    return smallest > relative.max ? Tolerance{smallest, least.because} : relative;
+    const double smallest = floor > 0 ? min.max / floor : 0;
+    return smallest > relative.max ? Tolerance{smallest, min.because} : relative;
 }
 
 // Tolerance of an index of refraction: the bound of the largest one. Deferred's own indices, which are
@@ -69,7 +69,7 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
                 mode, pair,
                 bounded(fmt::format("half a step of a {}-bit mantissa whose top bit is set, 0.5 / {}", bits,
                                     1u << (bits - 1))),
-                {radianceBound(bits).least,
+                {radianceBound(bits).min,
                  fmt::format("half of {0}.{0}.{0}.e{1}'s smallest step, 2^-{2}, at the darkest pixel", bits,
                              gpu::EMISSION_EXPONENT_BITS, gpu::EMISSION_BIAS + bits + 1)});
         case StoredField::Code::index:
@@ -79,7 +79,7 @@ Tolerance storedTolerance(const StoredField& field, const DebugMode& mode, const
                 mode, pair,
                 bounded(fmt::format("half a step of a half's {}-bit mantissa, 2^-{}",
                                     bits - gpu::HALF_EXPONENT_BITS, bits - gpu::HALF_EXPONENT_BITS + 1)),
-                {halfBound(bits).least, fmt::format("half of a half's smallest step, 2^-{}", bits + 10)});
+                {halfBound(bits).min, fmt::format("half of a half's smallest step, 2^-{}", bits + 10)});
     }
     return {};
 }
@@ -253,7 +253,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
         result.because +=
             fmt::format("; plus the error of {} steps through haze, {:.2g} % of its light",
                         path.settings.haze_march_steps, 100 * marchShare / path.settings.haze_march_steps);
-    result.most_pixels = true;
+    result.max_pixels = true;
     return result;
 }
 

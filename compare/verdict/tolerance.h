@@ -23,7 +23,7 @@ namespace diptych {
 struct Tolerance {
     double max = 0;  // in the channel's error kind
     std::string because;
-    bool most_pixels = false;  // against the reference: 0.1 % of the pixels may exceed it
+    bool max_pixels = false;  // against the reference: 0.1 % of the pixels may exceed it
 };
 
 // Tolerance of `mode`, a channel of both Frames.

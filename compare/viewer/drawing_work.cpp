@@ -35,7 +35,7 @@ constexpr double movingMs = 40;
 // A still image that takes longer is preceded by a smaller one.
 constexpr double patienceMs = 250;
 // Number of consecutive recoveries from a lost device before giving up until the next request.
-constexpr int mostRecoveries = 3;
+constexpr int maxRecoveries = 3;
 
 // Aborts work that is no longer needed.
 struct Superseded {};
@@ -172,7 +172,7 @@ private:
     // Drops a lost device; false if there was no loss, or too many.
     bool recovered(const std::string& why) {
         const bool lost = why.find("lost") != std::string::npos;
-        if (!lost || ++recoveries_ > mostRecoveries) return false;
+        if (!lost || ++recoveries_ > maxRecoveries) return false;
         countMessages();
         of_lost_devices_ = box_.validation_messages;
         pair_.dropDevice();

@@ -58,11 +58,11 @@ Image signedErrors(const Image& baseline, const Image& test, const Coverage& cov
     Image errors(baseline.width, baseline.height, 1);
     for (std::size_t i = 0; i < errors.pixels(); ++i) {
         if (!covered.covered[i]) continue;
-        float most = 0;
+        float max = 0;
         for (int c = 0; c < baseline.components; ++c)
-            if (const float d = test.pixel(i)[c] - baseline.pixel(i)[c]; !(std::abs(d) <= std::abs(most)))
-                most = d;
-        errors.pixel(i)[0] = most;
+            if (const float d = test.pixel(i)[c] - baseline.pixel(i)[c]; !(std::abs(d) <= std::abs(max)))
+                max = d;
+        errors.pixel(i)[0] = max;
     }
     return errors;
 }

@@ -13,7 +13,7 @@
 namespace diptych::viewer {
 namespace {
 
-constexpr double least_zoom = 1, most_zoom = 128;  // window pixels per image pixel
+constexpr double min_zoom = 1, max_zoom = 128;  // window pixels per image pixel
 constexpr double wipeReach = 7;  // window pixels around the wipe's line where the cursor grabs it
 
 }  // namespace
@@ -96,9 +96,9 @@ void Mouse::wheel(const Input& input, const std::vector<PanelPlace>& places) {
         const auto under = pixelUnder(places, state_.subject.settings.size, input.x, input.y);
         const double before = state_.canvas.zoom;
         state_.canvas.zoom =
-            std::clamp(std::round(before * std::exp2(0.5 * input.wheel)), least_zoom, most_zoom);
+            std::clamp(std::round(before * std::exp2(0.5 * input.wheel)), min_zoom, max_zoom);
         if (state_.canvas.zoom == before && input.wheel > 0)
-            state_.canvas.zoom = std::min(before + 1, most_zoom);
+            state_.canvas.zoom = std::min(before + 1, max_zoom);
         if (!under || places.empty()) return;
         // The point under the cursor stays there.
         const double x = under->pixel.x + 0.5, y = under->pixel.y + 0.5, ratio = before / state_.canvas.zoom;

@@ -13,7 +13,7 @@
 namespace diptych::viewer {
 namespace {
 
-constexpr int leastShadowSize = 256;  // texels, while moving
+constexpr int minShadowSize = 256;  // texels, while moving
 
 // While moving, unlit pixels count as background, because timed pipelines write only light. The depth
 // becomes 1 or 0, for coverage().
@@ -50,7 +50,7 @@ Settings settingsOf(const Subject& subject, Path path, const Size& size) {
     Settings settings = subject.sides.of(withoutReference(subject.settings), path);
     settings.size = size;
     // The cost of shadow maps does not depend on the image size, so they shrink with it.
-    settings.shadow_size = std::max(std::min(settings.shadow_size, leastShadowSize),
+    settings.shadow_size = std::max(std::min(settings.shadow_size, minShadowSize),
                                     settings.shadow_size * size.width / std::max(1, full.width));
     if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
     return settings;

@@ -98,7 +98,7 @@ std::vector<std::pair<std::string, ImVec4>> timesLines(const Contents& contents)
         {counted(properties.counters.lights, "light"), standard}};
     if (properties.mean_lights)
         lines[0].first += fmt::format("; a pixel evaluates {:.1f} on average, at most {:.0f}",
-                                      *properties.mean_lights, *properties.most_lights);
+                                      *properties.mean_lights, *properties.max_lights);
     if (properties.counters.overflowed_lists > 0)
         lines.emplace_back(counted(properties.counters.overflowed_lists, "light list") + " overflowed",
                            ImVec4{1, 0.6f, 0.3f, 1});
@@ -141,11 +141,11 @@ void times(const Contents& contents) {
             if (!contents.history || contents.history->at(i).total.empty()) continue;
             const std::deque<float>& total = contents.history->at(i).total;
             const std::vector<float> flat(total.begin(), total.end());
-            const float most = 1.2f * *std::ranges::max_element(flat);
+            const float max = 1.2f * *std::ranges::max_element(flat);
             ImGui::PlotLines(fmt::format("##total{}", i).c_str(), flat.data(), static_cast<int>(flat.size()),
-                             0, nullptr, 0, most,
+                             0, nullptr, 0, max,
                              {ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()});
-            if (ImGui::IsItemHovered()) ImGui::SetTooltip("from 0 to %.3g ms", double{most});
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("from 0 to %.3g ms", double{max});
         }
         ImGui::EndTable();
     }

@@ -43,18 +43,18 @@ void takeProperties(const Frame& frame, bool timed, PathProperties& properties) 
     properties.counters = frame.counters;
     properties.notes = frame.notes;
     properties.mean_lights.reset();
-    properties.most_lights.reset();
+    properties.max_lights.reset();
     const Image* const lights = findChannel(frame, Channel::light_count);
     if (!lights) return;
     const Coverage covered = coverage(frame, frame);
-    double sum = 0, most = 0;
+    double sum = 0, max = 0;
     for (std::size_t p = 0; p < lights->pixels(); ++p)
         if (covered.covered[p]) {
             sum += double{lights->pixel(p)[0]};
-            most = std::max(most, double{lights->pixel(p)[0]});
+            max = std::max(max, double{lights->pixel(p)[0]});
         }
     properties.mean_lights = covered.count > 0 ? sum / static_cast<double>(covered.count) : 0;
-    properties.most_lights = most;
+    properties.max_lights = max;
 }
 
 }  // namespace diptych::viewer

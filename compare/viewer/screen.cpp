@@ -16,7 +16,7 @@
 namespace diptych::viewer {
 namespace {
 
-constexpr int mostPresenters = 3;  // number of consecutive recreations after lost devices
+constexpr int maxPresenters = 3;  // number of consecutive recreations after lost devices
 
 void setScale(double scale) {
     ImGui::GetStyle() = ImGuiStyle();
@@ -73,7 +73,7 @@ void Screen::draw(InterfaceState& state, const Contents& contents, const CanvasR
         presenters_ = 0;
         return;
     }
-    if (++presenters_ > mostPresenters)
+    if (++presenters_ > maxPresenters)
         throw std::runtime_error(
             "view: the device that shows the window was lost several times; try another --device");
     say_("the device that shows the window was lost and is started again");

@@ -46,7 +46,7 @@ struct PathProperties {
     FrameCounters counters;
     std::vector<std::string> notes;
     std::optional<double> mean_lights,
-        most_lights;  // lights that a pixel evaluates; known once light_count is rendered
+        max_lights;  // lights that a pixel evaluates; known once light_count is rendered
 };
 
 // Immutable once published.

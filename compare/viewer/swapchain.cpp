@@ -40,14 +40,14 @@ bool Swapchain::make() {
     if (size.width == 0 || size.height == 0) return false;
     checkWindow(vkDeviceWaitIdle(device_), "vkDeviceWaitIdle");
     images_.clear();
-    const std::uint32_t most =
+    const std::uint32_t max =
         can.maxImageCount > 0 ? can.maxImageCount : std::numeric_limits<std::uint32_t>::max();
     const VkSwapchainCreateInfoKHR info{
         .sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
         .pNext = nullptr,
         .flags = 0,
         .surface = device_.surface(),
-        .minImageCount = std::min(std::max(can.minImageCount + 1, 3u), most),
+        .minImageCount = std::min(std::max(can.minImageCount + 1, 3u), max),
         .imageFormat = device_.format().format,
         .imageColorSpace = device_.format().colorSpace,
         .imageExtent = size,

@@ -69,7 +69,7 @@ void channelRow(InterfaceState& state, const Report& report, const Comparison& c
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(decided ? metric(decided->measured).c_str() : "");
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(decided ? ((decided->least ? ">= " : "") + metric(decided->limit)).c_str() : "");
+    ImGui::TextUnformatted(decided ? ((decided->min ? ">= " : "") + metric(decided->limit)).c_str() : "");
     ImGui::TableNextColumn();
     const bool failed = channel.verdict == Verdict::fail;
     ImGui::TextColored(failed     ? bad

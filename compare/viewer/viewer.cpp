@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int defaultWidth = 1280, defaultHeight = 760;  // of the window, at scale 1
 // Interval between frames of the interface, s: 60 frames a second while something moves, at most 125.
-constexpr double movingPause = 1.0 / 60, leastPause = 1.0 / 125, idlePause = 0.25;
+constexpr double movingPause = 1.0 / 60, minPause = 1.0 / 125, idlePause = 0.25;
 // A view is still once nothing has moved for this time, s.
 constexpr double stillAfter = 0.15, resizedAfter = 0.3;
 constexpr double watchPause = 0.3;  // s
@@ -115,7 +115,7 @@ private:
     double pause() const {
         const double since = secondsBetween(begun_, Clock::now()) - last_;
         if (isMoving() || frames_left_ > 0)
-            return std::max(0.001, (isMoving() ? movingPause : leastPause) - since);
+            return std::max(0.001, (isMoving() ? movingPause : minPause) - since);
         return idlePause;
     }
 

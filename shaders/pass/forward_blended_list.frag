@@ -24,6 +24,6 @@ void main() {
     addToSum(pixel, 1, f.radiance.g);
     addToSum(pixel, 2, f.radiance.b);
     addToSum(pixel, 3, f.opacity);
-    addToSum(pixel, 4, opticalDepth(f.opacity, MOST_OPTICAL_DEPTH));
+    addToSum(pixel, 4, opticalDepth(f.opacity, MAX_OPTICAL_DEPTH));
     atomicAdd(fragment_keys[counter(0)], uint64_t(1));
 }

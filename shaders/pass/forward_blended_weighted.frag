@@ -17,5 +17,5 @@ void main() {
     // for 2 to 8 layers with opacities of 0.2 to 0.9 (shared/transparent/MEASURED.md).
     float weight = exp(-3.0 * blendedDepth(middleDepth()));
     out_sums = vec4(f.radiance, f.opacity) * weight;
-    out_optical_depth = opticalDepth(f.opacity, MOST_OPTICAL_DEPTH);
+    out_optical_depth = opticalDepth(f.opacity, MAX_OPTICAL_DEPTH);
 }

@@ -79,10 +79,10 @@ void main() {
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         bool drawn = nearest > 0u;
-        float least = drawn ? max(viewDepth(uintBitsToFloat(nearest)), 0.0) : MAX_BOUND_RADIUS;
+        float smallest = drawn ? max(viewDepth(uintBitsToFloat(nearest)), 0.0) : MAX_BOUND_RADIUS;
         float largest = drawn ? max(viewDepth(uintBitsToFloat(deepest)), 0.0) : 0.0;
         uint tile = gl_WorkGroupID.y * grid.tiles.x + gl_WorkGroupID.x;
-        tile_depths[tile] = vec2(least, largest);
+        tile_depths[tile] = vec2(smallest, largest);
         if (on(feature_lights_in_front))
             tile_depths[listInFront(tile)] = vec2(0.0, farthest > 0u ? largest : MAX_BOUND_RADIUS);
     }

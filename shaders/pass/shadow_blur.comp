@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform MomentBlock { MomentConstants constants; }
 layout(set = SET_MOMENTS, binding = BINDING_MOMENT_SOURCE) uniform sampler2DArray source;
 layout(set = SET_MOMENTS, binding = BINDING_MOMENT_TARGET) uniform writeonly image2DArray target;
 
-const int REACH = int(feature_shadow_kernel / 2u), MOST_REACH = 3;  // texels on each side of the centre
+const int REACH = int(feature_shadow_kernel / 2u), MAX_REACH = 3;  // texels on each side of the centre
 
 // Half the side is two standard deviations, slightly more for narrow kernels.
 float gaussian(const int k) {
@@ -32,7 +32,7 @@ void main() {
     if (any(greaterThan(first, last))) return;
     float weights = 1.0;
     for (int k = 1; k <= REACH; ++k) weights += 2.0 * gaussian(k);
-    vec4 read[BLUR_RUN + 2 * MOST_REACH];
+    vec4 read[BLUR_RUN + 2 * MAX_REACH];
     for (int i = 0; i < run + 2 * REACH; ++i)
         read[i] = momentsAt(clamp(first + along * (i - REACH), ivec2(0), last));
     for (int i = 0; i < run; ++i) {

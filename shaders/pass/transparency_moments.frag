@@ -13,7 +13,7 @@ void main() {
     vec4 base_color = baseColor();
     cutOut(base_color);
     float opacity = opacityOf(base_color);
-    float optical_depth = opticalDepth(opacity, MOST_OPTICAL_DEPTH_OF_MOMENTS);
+    float optical_depth = opticalDepth(opacity, MAX_OPTICAL_DEPTH_OF_MOMENTS);
     out_optical_depth = optical_depth;
     out_moments = powersOf(momentDepth(middleDepth())) * optical_depth;
 }

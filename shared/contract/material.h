@@ -30,7 +30,7 @@
     /* often the alpha of the colour's image, and so is diffuse_transmission */                           \
     X(13, sheen_roughness,       srgb,   a,    SHEEN,        sheen_roughness,     "sheen roughness")      \
     X(14, iridescence,           linear, r,    IRIDESCENCE,  iridescence,         "iridescence")          \
-    X(15, iridescence_thickness, linear, g,    IRIDESCENCE,  iridescence_thickness_most, "film thickness") \
+    X(15, iridescence_thickness, linear, g,    IRIDESCENCE,  iridescence_thickness_max, "film thickness") \
     X(16, transmission,          linear, r,    TRANSMISSION, transmission,        "transmission")         \
     /* either transmission reads it, if the material has a volume: readsSlot() */                         \
     X(17, thickness,             linear, g,    BASE,         thickness,           "thickness")            \
@@ -80,8 +80,8 @@
     X(float, sheen_roughness,             0,    0, 1)    /* perceptual */                       \
     X(float, iridescence,                 0,    0, 1)    /* weight of the thin film */          \
     X(float, iridescence_ior,             1.3f, 1, maxFactor)           /* of the film */       \
-    X(float, iridescence_thickness_least, 100,  0, maxFilmThickness)    /* of the film, nm */   \
-    X(float, iridescence_thickness_most,  400,  0, maxFilmThickness)
+    X(float, iridescence_thickness_min, 100,  0, maxFilmThickness)    /* of the film, nm */   \
+    X(float, iridescence_thickness_max,  400,  0, maxFilmThickness)
 // clang-format on
 
 CONTRACT_BEGIN
@@ -149,7 +149,7 @@ struct TextureTransform {
 // component c of its diffuse light darker by the fraction (largest F0 - F0_c) / (1 - F0_c), the same for
 // all directions: by 0 for grey F0, and by at most a quarter of `diffuse`.
 struct Material {
-#define DIPTYCH_FACTOR(type, name, initially, least, most) type name;
+#define DIPTYCH_FACTOR(type, name, initially, min, max) type name;
     MATERIAL_FACTORS(DIPTYCH_FACTOR)
 #undef DIPTYCH_FACTOR
     vec3 emission;             // W/(sr m^2): emissiveFactor x emissiveStrength

@@ -100,10 +100,10 @@ CONTRACT_CONST(uint, VERTEX_POSING_BLENDED, 1);
 CONTRACT_CONST(uint, VERTEX_POSING_JOINTS, 2);
 
 // An inverse transpose is the cofactors over the determinant, of a matrix scaled to a largest component of
-// 1. A joint that flattens has no inverse: its determinant is raised to LEAST_DETERMINANT, and its inverse
-// is limited to MOST_INVERSE.
-CONTRACT_CONST(float, LEAST_DETERMINANT, 1e-30f);
-CONTRACT_CONST(float, MOST_INVERSE, 1e18f);
+// 1. A joint that flattens has no inverse: its determinant is raised to MIN_DETERMINANT, and its inverse
+// is limited to MAX_INVERSE.
+CONTRACT_CONST(float, MIN_DETERMINANT, 1e-30f);
+CONTRACT_CONST(float, MAX_INVERSE, 1e18f);
 
 // Positions beyond it are NaN, so their triangles are not drawn; m. Equals maxCoordinate of scene.h.
 CONTRACT_CONST(float, MAX_POSED_COORDINATE, 1e18f);

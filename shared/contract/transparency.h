@@ -44,13 +44,13 @@ struct BlendedConstants {
 CONTRACT_CONST(uint, FRAGMENT_SUMS, 5);
 CONTRACT_CONST(float, FRAGMENT_SUM_UNIT, 5.9604644775390625e-8f);  // 2^-24
 // Largest value that one fragment adds, 2^28: 2,048 of them fit in 63 bits.
-CONTRACT_CONST(float, FRAGMENT_SUM_MOST, 268435456.0f);
+CONTRACT_CONST(float, FRAGMENT_SUM_MAX, 268435456.0f);
 // Values per image after them: number of fragments that overflowed, and of pixels with fragments.
 CONTRACT_CONST(uint, FRAGMENT_COUNTERS, 2);
 // Optical depth of an opaque layer. Plain sums use 80: transmittance e^-80 is 0 in float32. Moments use
 // 10: a layer of 80 would leave no precision for the others.
-CONTRACT_CONST(float, MOST_OPTICAL_DEPTH, 80.0f);
-CONTRACT_CONST(float, MOST_OPTICAL_DEPTH_OF_MOMENTS, 10.0f);
+CONTRACT_CONST(float, MAX_OPTICAL_DEPTH, 80.0f);
+CONTRACT_CONST(float, MAX_OPTICAL_DEPTH_OF_MOMENTS, 10.0f);
 
 CONTRACT_END
 

@@ -35,7 +35,7 @@ PlaceInCaptures placeInCaptures(Channel mode) {
     return found->place;
 }
 
-std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit, std::size_t most) {
+std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit, std::size_t max) {
     gpu::uint images = 0;
     for (const Channel mode : modes) images |= 1u << placeInCaptures(mode).image;
     const auto lit_images = static_cast<std::size_t>(std::popcount(images >> gpu::FIRST_LIT_IMAGE));
@@ -49,9 +49,9 @@ std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat
         // Number of images that must go into one pass: one, or all lit images at the first of them.
         const bool first_lit = (images & (bit - 1)) >> gpu::FIRST_LIT_IMAGE == 0;
         const std::size_t together =
-            place.image >= gpu::FIRST_LIT_IMAGE && first_lit ? std::min(lit_images, most) : 1;
+            place.image >= gpu::FIRST_LIT_IMAGE && first_lit ? std::min(lit_images, max) : 1;
         if (groups.empty() ||
-            ((groups.back().images & bit) == 0 && groups.back().formats.size() + together > most))
+            ((groups.back().images & bit) == 0 && groups.back().formats.size() + together > max))
             groups.emplace_back();
         CaptureGroup& group = groups.back();
         group.modes.push_back(mode);

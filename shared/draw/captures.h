@@ -33,7 +33,7 @@ struct CaptureGroup {
 };
 // `lit`: format of lit, over which surfaces may be blended. `most`: images in a group.
 std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit,
-                                        std::size_t most = gpu::MAX_COLOR_ATTACHMENTS);
+                                        std::size_t max = gpu::MAX_COLOR_ATTACHMENTS);
 
 // Groups share the memory of their images: each is run and read back before the next one runs.
 struct CapturedImage {

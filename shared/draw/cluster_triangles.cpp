@@ -83,9 +83,9 @@ void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> po
 }
 
 void ClusterTriangles::add(const ClusterTriangles& others) {
-    constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+    constexpr std::size_t max = std::numeric_limits<std::uint32_t>::max();
     const std::size_t values = values_.size(), numbers = numbers_.size();
-    if (values + others.values_.size() > most || numbers + others.numbers_.size() > most)
+    if (values + others.values_.size() > max || numbers + others.numbers_.size() > max)
         throw std::runtime_error("the scene has over 2^29 triangles, too many for culling");
     values_.insert(values_.end(), others.values_.begin(), others.values_.end());
     numbers_.insert(numbers_.end(), others.numbers_.begin(), others.numbers_.end());
@@ -97,15 +97,14 @@ void ClusterTriangles::add(const ClusterTriangles& others) {
     }
 }
 
-TriangleSet ClusterTriangles::facing(const Entry& entry, const glm::vec3& eye, float eye_w,
-                                     float least) const {
+TriangleSet ClusterTriangles::facing(const Entry& entry, const glm::vec3& eye, float eye_w, float min) const {
     const float* const x = values_.data() + entry.first_plane;
     const float *const y = x + entry.planes, *const z = y + entry.planes, *const d = z + entry.planes;
     std::array<float, clusterTriangles> before;
     for (std::size_t i = 0; i < entry.planes; ++i)
         before[i] = x[i] * eye.x + y[i] * eye.y + z[i] * eye.z - d[i] * eye_w;
     TriangleSet set = 0;
-    for (std::size_t i = 0; i < entry.triangles; ++i) set |= TriangleSet{!(before[i] < least)} << i;
+    for (std::size_t i = 0; i < entry.triangles; ++i) set |= TriangleSet{!(before[i] < min)} << i;
     return set;
 }
 

@@ -57,7 +57,7 @@ public:
 
     // Triangles whose dot(normal, eye) - eye_w * d is not below `least`. `eye`: relative to the meshlet's
     // centre.
-    TriangleSet facing(const Entry& entry, const glm::vec3& eye, float eye_w, float least) const;
+    TriangleSet facing(const Entry& entry, const glm::vec3& eye, float eye_w, float min) const;
 
     // Projects points relative to the meshlet's centre to pixels of an image with one sample per pixel:
     // (dot(x, point), dot(y, point)) / dot(w, point) + half, where w is positive.

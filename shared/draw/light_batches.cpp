@@ -72,19 +72,19 @@ gpu::uint entriesPerDraw(const DeviceProfile& profile, const GpuLights& lights, 
                                  ((layers & gpu::LAYER_DIFFUSE_TRANSMISSION) != 0 ? 1 : 0),
                     over_reflectors = reflectors > 1 ? reflectors : 0,
                     over_packet = list_width > 1 ? list_width : 0;
-    gpu::uint most = 1 + over_packet + list_width * over_reflectors;
+    gpu::uint max = 1 + over_packet + list_width * over_reflectors;
     // Both form factors of a reflector, of a tube each with two rims of up to two arcs.
     constexpr gpu::uint factors = 2 * (1 + 2 * (1 + 2));
-    if (lights.area() > 0) most = std::max(most, list_width * (1 + over_reflectors + reflectors * factors));
-    return std::max(profile.light_iterations / most, 1u);
+    if (lights.area() > 0) max = std::max(max, list_width * (1 + over_reflectors + reflectors * factors));
+    return std::max(profile.light_iterations / max, 1u);
 }
 
 LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const AddBatch& add, SumsBy drawn,
                              gpu::uint layers) {
-    const gpu::uint entries = inputs.longest_list, most = inputs.entries_per_draw;
-    if (entries <= most) return {};
-    LightBatch batch{gpu::BATCH_FIRST, 0, most};
-    while (batch.first + most < entries) {
+    const gpu::uint entries = inputs.longest_list, max = inputs.entries_per_draw;
+    if (entries <= max) return {};
+    LightBatch batch{gpu::BATCH_FIRST, 0, max};
+    while (batch.first + max < entries) {
         const bool stored = drawn == SumsBy::storage;
         constexpr const char* name = "shade earlier lights";
         const auto sum = [&](const char* of) {
@@ -102,7 +102,7 @@ LightBatch addEarlierBatches(PassList& passes, const FrameInputs& inputs, const 
                 if (image.valid()) pass.color(image, Load::clear);
         add(pass, batch, images);
         std::shared_ptr<DescriptorSets> sums = partialSumSet(passes, pass, inputs, images);
-        batch = {gpu::BATCH_LATER, batch.end, std::min(batch.end + most, entries), images, std::move(sums)};
+        batch = {gpu::BATCH_LATER, batch.end, std::min(batch.end + max, entries), images, std::move(sums)};
     }
     return batch;
 }

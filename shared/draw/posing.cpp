@@ -22,7 +22,7 @@ static_assert(double{gpu::MAX_POSED_COORDINATE} == double{static_cast<float>(max
 
 // lavapipe ends the loops of a shader invocation after 65,535 iterations in total, and runs each loop once
 // more. The loops over joint sets use the remainder.
-constexpr std::size_t mostRounds = 65000;
+constexpr std::size_t maxRounds = 65000;
 
 // Matrices that transform an instance's vertices, from the pivot to its box's origin.
 std::vector<glm::mat4x3> matricesOf(const Pose& pose, const Instance& instance, const glm::vec3& pivot) {
@@ -63,11 +63,11 @@ std::vector<gpu::PosedDelta> deltasOf(const Deformations::Rest& rest, const std:
     // for it.
     const std::size_t again = i.groups > 0 ? i.normals_end - i.positions_end : 0;
     const std::size_t rounds = deltas.size() + corners * i.positions_end + again;
-    if (rounds > mostRounds)
+    if (rounds > maxRounds)
         throw std::runtime_error(
             fmt::format("morph targets change {} attributes of a vertex at once, which needs {} additions; "
                         "the limit is {}",
-                        deltas.size(), rounds, mostRounds));
+                        deltas.size(), rounds, maxRounds));
     return deltas;
 }
 

@@ -77,12 +77,12 @@ void checkSamples(const FrameInputs& inputs) {
             fail(fmt::format("does not support {} attachments with this number of samples; use --msaa {}",
                              nameOf(format), samples > 4 ? 4 : 1));
     }
-    const gpu::uint most = inputs.entries_per_draw;
-    if (inputs.longest_list > most)
+    const gpu::uint max = inputs.entries_per_draw;
+    if (inputs.longest_list > max)
         fail(
             fmt::format("reads up to {} light list entries per draw, but a list has {}; use --assign "
                         "clustered or tiled, or --light-cutoff",
-                        most, inputs.longest_list));
+                        max, inputs.longest_list));
 }
 
 ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, Life life, const char* name) {
@@ -93,7 +93,7 @@ ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, L
     return resolved;
 }
 
-std::size_t mostCaptured(const FrameInputs& inputs) {
+std::size_t maxCaptured(const FrameInputs& inputs) {
     return inputs.samples == VK_SAMPLE_COUNT_1_BIT ? gpu::MAX_COLOR_ATTACHMENTS
                                                    : gpu::MAX_COLOR_ATTACHMENTS / 2;
 }
@@ -131,7 +131,7 @@ void addCaptureResolve(PassList& passes, const FrameInputs& inputs, std::vector<
                 return !isLit(image) && !isCount(image) && (sample == 0 || image.every_sample);
             },
             {Shader::sample_one_frag, fmt::format("sample {}", sample), sample});
-    read(isCount, {Shader::sample_most_frag, "most of samples"});
+    read(isCount, {Shader::sample_max_frag, "most of samples"});
     for (CapturedImage image : group) {
         if (!isLit(image)) continue;
         image.image = addResolve(passes, inputs, image.image, Life::transient);

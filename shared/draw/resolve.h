@@ -20,7 +20,7 @@ ImageRef addResolve(PassList& passes, const FrameInputs& inputs, ImageRef lit, L
                     const char* name = "resolve");
 
 // Number of channels that one capture pass writes; fewer with MSAA, to limit memory.
-std::size_t mostCaptured(const FrameInputs& inputs);
+std::size_t maxCaptured(const FrameInputs& inputs);
 
 // Puts images of one sample in the place of a group's, which are images[first] and all after it, as lists of
 // passes read them back: of every channel the first sample, of channels with every_sample the others too, of

@@ -161,8 +161,8 @@ TriangleSet VisibleClusters::of(const Cluster& cluster, const ClusterTriangles& 
         const double behind =
             area * farthest * farthest * farthest / area_scale_ +
             facingError * double{entry.largest_circle} * (glm::length(eye) + double{entry.reach});
-        const auto least = static_cast<float>(-behind * (1 + 1e-6));
-        set = triangles.facing(entry, glm::vec3(eye), eye_at_infinity_ ? 0.0f : 1.0f, least);
+        const auto min = static_cast<float>(-behind * (1 + 1e-6));
+        set = triangles.facing(entry, glm::vec3(eye), eye_at_infinity_ ? 0.0f : 1.0f, min);
     }
     // Inradius in pixels, overestimated by pixels_ by up to 2.5 times. Larger triangles nearly always
     // cover a sample.

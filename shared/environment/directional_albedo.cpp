@@ -106,11 +106,10 @@ glm::dvec2 specularAlbedo(double n_dot_v, double alpha) {
 const std::vector<glm::vec2>& directionalAlbedoTable() {
     static const std::vector<glm::vec2> table = [] {
         constexpr std::size_t width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
-        const double least = std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
+        const double min = std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
         std::vector<glm::vec2> made(width * height);
         tbb::parallel_for(std::size_t{0}, height, [&](std::size_t row) {
-            const double y = least + (1 - least) * static_cast<double>(row) / (height - 1),
-                         alpha = y * y * y * y;
+            const double y = min + (1 - min) * static_cast<double>(row) / (height - 1), alpha = y * y * y * y;
             for (std::size_t i = 0; i < width; ++i)
                 made[row * width + i] =
                     specularAlbedo(viewAt(static_cast<double>(i) / (width - 1), alpha), alpha);

@@ -46,11 +46,11 @@ const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environm
     for (const auto& images : made_)
         if (images->request == request && images->without_sun == without_sun) return *images;
     const Image& radiance = background.radiance;
-    const auto most = static_cast<int>(device_.limits().maxImageDimension2D);
-    if (radiance.width > most || radiance.height > most)
+    const auto max = static_cast<int>(device_.limits().maxImageDimension2D);
+    if (radiance.width > max || radiance.height > max)
         throw std::runtime_error(fmt::format("environment {}: has {} x {} pixels; {} supports up to {} x {}",
                                              background.name, radiance.width, radiance.height,
-                                             device_.info().name, most, most));
+                                             device_.info().name, max, max));
     const auto start = std::chrono::steady_clock::now();
     bool wasKept = false;
     const EnvironmentMaps maps = environmentMaps(environment, request, folder_, &wasKept);
@@ -61,7 +61,7 @@ const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environm
     images->request = request;
     images->without_sun = without_sun;
     images->harmonics = maps.harmonics;
-    images->window = leastWindow(maps.harmonics);
+    images->window = minWindow(maps.harmonics);
     images->diffuse = atlas.diffuse;
     images->levels = atlas.levels;
     images->maps = uploaded(device_, uploader, "environment maps", atlas.width, atlas.height, atlas.texels);

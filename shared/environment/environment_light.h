@@ -25,7 +25,7 @@ struct EnvironmentImages {
     EnvironmentRequest request;
     bool without_sun = false;
     Harmonics harmonics{};
-    double window = 0;  // leastWindow()
+    double window = 0;  // minWindow()
     glm::vec4 diffuse{0};
     std::vector<glm::vec4> levels{};
     GpuImage maps{}, sky{};

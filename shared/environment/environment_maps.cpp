@@ -16,8 +16,8 @@ namespace diptych {
 
 namespace {
 
-constexpr int mostSourceSide = 1024, leastSourceSide = 16;  // of the environment's own map, texels
-constexpr int diffuseSide = 33, diffuseSourceSide = 64, leastPyramidSide = 4;
+constexpr int maxSourceSide = 1024, minSourceSide = 16;  // of the environment's own map, texels
+constexpr int diffuseSide = 33, diffuseSourceSide = 64, minPyramidSide = 4;
 
 // Proportional to a node's solid angle. Edge nodes count half, because they occur twice.
 double nodeWeight(const NodeMap& map, int x, int y) {
@@ -47,7 +47,7 @@ int finenessOf(int width, int height) {
 }
 
 bool canBeHalved(int width, int height) {
-    return finenessOf(width, height) >= 4 * mostSourceSide && width % 2 == 0 && height % 2 == 0;
+    return finenessOf(width, height) >= 4 * maxSourceSide && width % 2 == 0 && height % 2 == 0;
 }
 
 bool canBeHalved(const Image& image) {
@@ -59,7 +59,7 @@ bool canBeHalved(const Image& image) {
 int sourceSide(int width, int height) {
     for (; canBeHalved(width, height); height /= 2) width /= 2;
     return static_cast<int>(std::bit_ceil(
-        static_cast<unsigned>(std::clamp(finenessOf(width, height), leastSourceSide, mostSourceSide))));
+        static_cast<unsigned>(std::clamp(finenessOf(width, height), minSourceSide, maxSourceSide))));
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ EnvironmentMaps makeEnvironmentMaps(const Environment& environment, const Enviro
     suns.addTo(whole);
     std::vector<BrightTexel> bright;
     if (request.prefilter) bright = takeBrightTexels(whole);
-    const std::vector<OctahedralMap> source = pyramid(std::move(whole), leastPyramidSide);
+    const std::vector<OctahedralMap> source = pyramid(std::move(whole), minPyramidSide);
     const auto coarse =
         std::ranges::find_if(source, [](const OctahedralMap& map) { return map.side <= diffuseSourceSide; });
     maps.diffuse = irradiance(*coarse, diffuseSide, bright);
@@ -101,7 +101,7 @@ MapSides mapSides(int width, int height, bool prefilter) {
         for (std::size_t level = 0; level < gpu::ENVIRONMENT_SPECULAR_LEVELS; ++level)
             sides.levels.push_back(levelSide(level, side));
     else  // powers of two, down to the last level of pyramid()
-        for (int each = side; each >= leastPyramidSide; each /= 2) sides.levels.push_back(each + 1);
+        for (int each = side; each >= minPyramidSide; each /= 2) sides.levels.push_back(each + 1);
     return sides;
 }
 

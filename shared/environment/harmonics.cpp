@@ -169,7 +169,7 @@ glm::dvec3 evaluate(const std::array<glm::dvec3, 9>& polynomial, const glm::dvec
     return sum;
 }
 
-double leastWindow(const Harmonics& radiance) {
+double minWindow(const Harmonics& radiance) {
     const auto isNegative = [&](double window) {
         const auto polynomial = irradiancePolynomial(radiance, window);
         constexpr int count = 2000;

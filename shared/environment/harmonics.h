@@ -29,6 +29,6 @@ glm::dvec3 evaluate(const std::array<glm::dvec3, 9>& polynomial, const glm::dvec
 
 // Smallest window, within 1 %, for which no component of irradiance is negative in 2000 directions; 0 if
 // none is negative without a window.
-double leastWindow(const Harmonics& radiance);
+double minWindow(const Harmonics& radiance);
 
 }  // namespace diptych

@@ -175,7 +175,7 @@ bool writeMaps(const fs::path& file, std::uint64_t key, const EnvironmentMaps& m
     }
 }
 
-void limitMapCache(const fs::path& path, std::uintmax_t most) {
+void limitMapCache(const fs::path& path, std::uintmax_t max) {
     const OpenFolder folder = makeCacheFolder(path);
     std::vector<std::pair<std::string, struct stat>> files;
     std::uintmax_t sum = 0;
@@ -196,7 +196,7 @@ void limitMapCache(const fs::path& path, std::uintmax_t most) {
         return std::pair(file.second.st_mtim.tv_sec, file.second.st_mtim.tv_nsec);
     });
     for (const auto& [name, there] : files) {
-        if (sum <= most) return;
+        if (sum <= max) return;
         if (folder.removeFile(name) == 0) sum -= static_cast<std::uintmax_t>(there.st_size);
     }
 }

@@ -157,10 +157,10 @@ glm::vec3 NodeMap::interpolated(glm::vec2 place) const {
                      : node(0, 0) * (1 - f.y) + node(0, 1) * -right + node(1, 1) * f.x;
 }
 
-std::vector<OctahedralMap> pyramid(OctahedralMap map, int least) {
+std::vector<OctahedralMap> pyramid(OctahedralMap map, int min) {
     std::vector<OctahedralMap> levels;
     levels.push_back(std::move(map));
-    while (levels.back().side % 2 == 0 && levels.back().side / 2 >= least) {
+    while (levels.back().side % 2 == 0 && levels.back().side / 2 >= min) {
         const OctahedralMap& fine = levels.back();
         OctahedralMap coarse(fine.side / 2);
         tbb::parallel_for(0, coarse.side, [&](int y) {

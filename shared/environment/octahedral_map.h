@@ -91,6 +91,6 @@ NodeMap atNodes(const OctahedralMap& map, int side);
 OctahedralMap resampled(const LatLong& light, int side);
 
 // Mip pyramid of the map: means of 2x2 texels weighted by solid angle, down to a side of `least`.
-std::vector<OctahedralMap> pyramid(OctahedralMap map, int least);
+std::vector<OctahedralMap> pyramid(OctahedralMap map, int min);
 
 }  // namespace diptych

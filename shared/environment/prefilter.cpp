@@ -18,9 +18,9 @@ namespace diptych {
 
 namespace {
 
-constexpr int leastSamples = 32;
+constexpr int minSamples = 32;
 // Cells per side of the widest lobe. With 12, dark areas next to a bright horizon had errors of up to 9 %.
-constexpr int leastNodes = 24;
+constexpr int minNodes = 24;
 
 // Light direction about the normal +Z, its weight, and the pyramid level to read, for texels of the solid
 // angle at the centre of the square.
@@ -121,9 +121,9 @@ NodeMap filtered(const std::vector<OctahedralMap>& source, double alpha, int sid
                  const FilterQuality& quality) {
     // At most twice as many samples as the source has texels under the lobe, about 4 pi alpha^2; more
     // would read the same ones. With half as many, a lobe of roughness 0.15 had 1.6 times the error.
-    const int most = source.front().side, texels = static_cast<int>(2 * alpha * alpha * most * most);
+    const int max = source.front().side, texels = static_cast<int>(2 * alpha * alpha * max * max);
     const std::vector<LobeSample> samples =
-        lobeSamples(alpha, std::min(quality.samples, std::max(texels, leastSamples)), quality.bias, most);
+        lobeSamples(alpha, std::min(quality.samples, std::max(texels, minSamples)), quality.bias, max);
     return mapOf(side, [&](const glm::vec3& n) {
         const LobeFrame frame(n);
         Texel sum{};
@@ -157,9 +157,9 @@ std::vector<BrightTexel> takeBrightTexels(OctahedralMap& map) {
         for (int x = 0; x < map.side; ++x)
             if (brightness(map.at(x, y)) > bound) found.push_back({brightness(map.at(x, y)), x, y});
     std::ranges::stable_sort(found, std::greater(), &Bright::brightness);
-    if (found.size() > mostBrightTexels) {
-        bound = found[mostBrightTexels].brightness;
-        found.resize(mostBrightTexels);
+    if (found.size() > maxBrightTexels) {
+        bound = found[maxBrightTexels].brightness;
+        found.resize(maxBrightTexels);
     }
     std::vector<BrightTexel> taken;
     for (const Bright& bright : found) {
@@ -229,10 +229,10 @@ double levelAlpha(std::size_t level) {
 
 // The lobe of a point light at distance x is (1 + (x / 2 alpha)^2)^-2. Bilinear interpolation over texels
 // of size h has an error of h^2 / (8 alpha^2) of the peak: 1.6 % with 10 / alpha texels per side.
-int levelSide(std::size_t level, int most) {
-    if (level == 0) return most + 1;
+int levelSide(std::size_t level, int max) {
+    if (level == 0) return max + 1;
     const auto wanted = static_cast<int>(std::ceil(5 / levelAlpha(level)));
-    return std::min(std::max(2 * wanted, leastNodes), most) + 1;
+    return std::min(std::max(2 * wanted, minNodes), max) + 1;
 }
 
 }  // namespace diptych

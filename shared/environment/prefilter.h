@@ -29,9 +29,9 @@ struct BrightTexel {
     glm::vec3 direction;
     Texel power;  // radiance times solid angle, W/m^2
 };
-// Removes from the map the part of its brightest texels, at most mostBrightTexels, above 8 times its mean.
+// Removes from the map the part of its brightest texels, at most maxBrightTexels, above 8 times its mean.
 std::vector<BrightTexel> takeBrightTexels(OctahedralMap& map);
-inline constexpr std::size_t mostBrightTexels = 256;
+inline constexpr std::size_t maxBrightTexels = 256;
 // Adds these texels under the same lobe.
 void addBrightTexels(NodeMap& filtered, const std::vector<BrightTexel>& texels, double alpha);
 
@@ -44,6 +44,6 @@ NodeMap irradiance(const OctahedralMap& source, int side, const std::vector<Brig
 // Levels of the specular lobe (contract/environment.h): GGX alpha, and nodes per side, odd, for a source
 // of `most` texels per side.
 double levelAlpha(std::size_t level);
-int levelSide(std::size_t level, int most);
+int levelSide(std::size_t level, int max);
 
 }  // namespace diptych

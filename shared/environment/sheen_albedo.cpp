@@ -94,10 +94,10 @@ double sheenAlbedo(double n_dot_v, double roughness) {
 const std::vector<glm::vec4>& sheenAlbedoRows() {
     static const std::vector<glm::vec4> table = [] {
         constexpr std::size_t size = gpu::SHEEN_TABLE_SIZE;
-        const double least = std::sqrt(std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS}));
+        const double min = std::sqrt(std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS}));
         std::vector<float> samples(size * size);
         tbb::parallel_for(std::size_t{0}, size, [&](std::size_t row) {
-            const double y = least + (1 - least) * static_cast<double>(row) / (size - 1),
+            const double y = min + (1 - min) * static_cast<double>(row) / (size - 1),
                          roughness = y * y * y * y, k = double{gpu::SHEEN_TABLE_WIDENS} * roughness;
             for (std::size_t i = 0; i < size; ++i)
                 samples[row * size + i] =

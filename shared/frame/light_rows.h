@@ -218,7 +218,7 @@ void lightRows(Visit& visit) {
                 .help = "capacity of the clipmap, pages; if more are needed, coarser levels are used",
                 .valid = {"must be 1 to 16384",
                           [](const Settings& s) {
-                              return s.clipmap_pages >= 1 && s.clipmap_pages <= most_pages;
+                              return s.clipmap_pages >= 1 && s.clipmap_pages <= max_pages;
                           }},
                 .default_only = {needs_clipmap, hasClipmap},
                 .ignored = {.reference = traces_shadows},

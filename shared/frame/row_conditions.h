@@ -24,8 +24,8 @@ inline constexpr std::string_view traces_shadows = "the reference traces the sha
 inline constexpr std::string_view only_reference = "only the reference takes several samples of a surface";
 
 inline constexpr int largest_side = 16384;  // at most maxImageDimension2D of current Vulkan 1.3 devices
-inline constexpr int most_pages = 16384;
-inline constexpr int most_samples = 65536;  // more would take a day for a small image
+inline constexpr int max_pages = 16384;
+inline constexpr int max_samples = 65536;  // more would take a day for a small image
 
 inline constexpr std::string_view needs_env =
     "has no effect without --env (--env scene uses the environment in the scene's file)";

@@ -296,7 +296,7 @@ void Settings::rows(Visit&& visit) {
     visit(Field{.option = "spp",
                 .help = "samples per pixel of the reference",
                 .valid = {"must be 1 to 65536",
-                          [](const Settings& s) { return s.spp >= 1 && s.spp <= row::most_samples; }},
+                          [](const Settings& s) { return s.spp >= 1 && s.spp <= row::max_samples; }},
                 .default_only = {row::needs_reference, row::isReference},
                 .ignored = {.deferred = row::only_reference, .forward_plus = row::only_reference}},
           &Settings::spp);

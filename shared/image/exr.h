@@ -37,6 +37,6 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
 // `most` bytes decoded. Throws std::runtime_error, one line that names file, part and fault.
 ImageFile readExr(const std::filesystem::path& file);
 ImageFile readExr(std::span<const std::byte> bytes, const std::string& name,
-                  std::uint64_t most = limits::imageBytes(), std::string_view part = {});
+                  std::uint64_t max = limits::imageBytes(), std::string_view part = {});
 
 }  // namespace diptych

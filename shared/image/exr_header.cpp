@@ -121,16 +121,16 @@ std::uint64_t tableBytes(const ExrWindow& window, const Tiles& tiles, int lines)
 // The display window is padded with zeros that are not in the file. So a small crop could claim much
 // memory. The window may need at most 256 times the bytes of the pixels, or 1 GiB (8192 x 8192 float32
 // RGBA), whichever is more.
-std::uint64_t displayBytes(std::uint64_t dataBytes, std::uint64_t most) {
+std::uint64_t displayBytes(std::uint64_t dataBytes, std::uint64_t max) {
     constexpr std::uint64_t around = 256, always = std::uint64_t{1} << 30;
-    return std::min(most, std::max(around * dataBytes, always));
+    return std::min(max, std::max(around * dataBytes, always));
 }
 
 // Sums over the parts read so far.
 struct Claims {
     // Bytes of chunk tables, of decoded pixels, and of display windows.
     std::uint64_t tables = 0, data = 0, display = 0;
-    double least_file = 0;  // least bytes of the pixels in the file, at the best compression
+    double min_file = 0;  // least bytes of the pixels in the file, at the best compression
 };
 
 std::int64_t storedBytes(const std::vector<ExrChannel>& channels) {
@@ -160,7 +160,7 @@ std::optional<glm::dmat3> meaningOf(const Attributes& part, FileNotes& notes) {
 
 struct Reader {
     std::span<const std::byte> file;
-    std::uint64_t most;
+    std::uint64_t max;
     std::string_view asked;
     std::uint32_t flags;
     ExrHeader header{};
@@ -210,9 +210,9 @@ void Reader::checkClaims(const ExrPart& part, const ExrWindow& display, const Ti
                          const Compressor& compressor) {
     const ExrWindow& window = part.data;
     const std::int64_t pixel = decodedBytes(part.channels);
-    checkImageSize(window.width(), window.height(), pixel, most);
+    checkImageSize(window.width(), window.height(), pixel, max);
     const auto data = static_cast<std::uint64_t>(window.width() * window.height() * pixel);
-    checkImageSize(display.width(), display.height(), pixel, displayBytes(data, most));
+    checkImageSize(display.width(), display.height(), pixel, displayBytes(data, max));
     // OpenEXR decodes whole chunks (rows of tiles or blocks of lines), which may exceed the image.
     constexpr std::int64_t small_tile = 4096;
     if (tiles.width > std::max(window.width(), small_tile) ||
@@ -220,14 +220,14 @@ void Reader::checkClaims(const ExrPart& part, const ExrWindow& display, const Ti
         fail(fmt::format("tiles of {} x {} pixels are larger than the image of {} x {}", tiles.width,
                          tiles.height, window.width(), window.height()));
     checkImageSize(std::max(window.width(), tiles.width),
-                   tiles.width > 0 ? tiles.height : std::int64_t{compressor.lines}, pixel, most);
-    claims.least_file += static_cast<double>(part.stored_bytes) / compressor.ratio;
-    if (claims.least_file > static_cast<double>(file.size()))
+                   tiles.width > 0 ? tiles.height : std::int64_t{compressor.lines}, pixel, max);
+    claims.min_file += static_cast<double>(part.stored_bytes) / compressor.ratio;
+    if (claims.min_file > static_cast<double>(file.size()))
         failToHold(window.width(), window.height(), file.size());
     claims.data += data;
     claims.display += static_cast<std::uint64_t>(display.width() * display.height() * pixel);
-    const std::uint64_t allowed = displayBytes(claims.data, most);
-    if (claims.data > most || claims.display > allowed)
+    const std::uint64_t allowed = displayBytes(claims.data, max);
+    if (claims.data > max || claims.display > allowed)
         fail(fmt::format("this part and the parts before it claim {} MiB; the limit is {} MiB",
                          std::max(claims.data, claims.display) >> 20, allowed >> 20));
 }
@@ -259,7 +259,7 @@ void Reader::take(const Attributes& attributes, ExrPart part, const Tiles& tiles
 
 }  // namespace
 
-ExrHeader readExrHeader(std::span<const std::byte> file, std::uint64_t most, std::string_view asked) {
+ExrHeader readExrHeader(std::span<const std::byte> file, std::uint64_t max, std::string_view asked) {
     constexpr std::uint32_t magic = 20000630, version_bits = 0xff, known_bits = 0x1eff;
     Cursor in(file);
     if (file.size() < 8 || in.number<std::uint32_t>() != magic) fail("is not an EXR file");
@@ -267,7 +267,7 @@ ExrHeader readExrHeader(std::span<const std::byte> file, std::uint64_t most, std
     if ((flags & version_bits) != 2) fail(fmt::format("EXR version {}, not 2", flags & version_bits));
     if ((flags & ~known_bits) != 0) fail(fmt::format("has the unknown flags {:#x}", flags & ~known_bits));
 
-    Reader reader{file, most, asked, flags};
+    Reader reader{file, max, asked, flags};
     ExrHeader& header = reader.header;
     header.bytes.assign(file.begin(), file.begin() + 8);
     for (int number = 0; number == 0 || reader.several(); ++number) {

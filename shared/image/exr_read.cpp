@@ -230,8 +230,8 @@ void checkNames(const std::vector<ImageLayer>& layers) {
                 throw std::runtime_error("channel " + oneLine(name) + ": appears in two parts");
 }
 
-ImageFile readParts(std::span<const std::byte> file, std::uint64_t most, std::string_view asked) {
-    ExrHeader header = readExrHeader(file, most, asked);
+ImageFile readParts(std::span<const std::byte> file, std::uint64_t max, std::string_view asked) {
+    ExrHeader header = readExrHeader(file, max, asked);
     MemoryStream stream(header.bytes, file);
     // One thread per MiB: small images are read before another thread has started.
     std::uint64_t useful = 0, chunk = 0;
@@ -276,10 +276,10 @@ ImageFile readParts(std::span<const std::byte> file, std::uint64_t most, std::st
 
 }  // namespace
 
-ImageFile readExr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+ImageFile readExr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max,
                   std::string_view part) {
     exr::useAllCores();
-    return named(name, [&] { return readParts(bytes, most, part); });
+    return named(name, [&] { return readParts(bytes, max, part); });
 }
 
 ImageFile readExr(const std::filesystem::path& file) {

@@ -12,9 +12,9 @@ namespace diptych {
 
 namespace fs = std::filesystem;
 
-std::vector<unsigned char> firstBytesOf(const fs::path& path, std::uint64_t limit, std::uint64_t most) {
+std::vector<unsigned char> firstBytesOf(const fs::path& path, std::uint64_t limit, std::uint64_t max) {
     InputFile file(path, limit);
-    std::vector<unsigned char> bytes(std::min(file.size(), most));
+    std::vector<unsigned char> bytes(std::min(file.size(), max));
     file.read(std::as_writable_bytes(std::span(bytes)));
     return bytes;
 }

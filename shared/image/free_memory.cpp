@@ -62,9 +62,9 @@ public:
 
 constexpr std::uint64_t kilobyte = 1024;  // the unit "kB" in /proc
 
-void takeMachine(const fs::path& root, Least& least) {
+void takeMachine(const fs::path& root, Least& min) {
     if (const auto available = labelled(root / "proc/meminfo", "MemAvailable:"))
-        least.take(*available * kilobyte, 0, "this machine");
+        min.take(*available * kilobyte, 0, "this machine");
 }
 
 // File names of one cgroup version.
@@ -76,7 +76,7 @@ struct CgroupFiles {
 
 // Visits a cgroup and its ancestors up to the mount point. In a container, the path may be the host's, and
 // only its end is mounted, so missing folders are skipped.
-void takeCgroups(const fs::path& mount, const std::string& path, const CgroupFiles& files, Least& least) {
+void takeCgroups(const fs::path& mount, const std::string& path, const CgroupFiles& files, Least& min) {
     for (fs::path folder = fs::path(path).relative_path();; folder = folder.parent_path()) {
         const fs::path at = mount / folder;
         if (const auto used = numberOf(at / files.used)) {
@@ -84,14 +84,14 @@ void takeCgroups(const fs::path& mount, const std::string& path, const CgroupFil
             for (const char* name : files.cached)
                 cached += labelled(at / "memory.stat", std::string(name) + " ").value_or(0);
             for (const char* limit : files.limits)
-                least.take(numberOf(at / limit), *used > cached ? *used - cached : 0, "a cgroup");
+                min.take(numberOf(at / limit), *used > cached ? *used - cached : 0, "a cgroup");
         }
         if (folder.empty()) return;
     }
 }
 
 // Lines of /proc/self/cgroup: "0::/path" in version 2, "5:memory:/path" in version 1.
-void takeCgroups(const fs::path& root, Least& least) {
+void takeCgroups(const fs::path& root, Least& min) {
     const fs::path mount = root / "sys/fs/cgroup";
     for (const std::string& line : linesOf(root / "proc/self/cgroup")) {
         const std::size_t first = line.find(':'), second = line.find(':', first + 1);
@@ -101,25 +101,25 @@ void takeCgroups(const fs::path& root, Least& least) {
         if (controllers == ",,") {
             const CgroupFiles files{
                 {"memory.max", "memory.high"}, "memory.current", {"inactive_file", "active_file"}};
-            takeCgroups(mount, path, files, least);
+            takeCgroups(mount, path, files, min);
         } else if (controllers.find(",memory,") != controllers.npos) {
             takeCgroups(mount / "memory", path,
                         {{"memory.limit_in_bytes"},
                          "memory.usage_in_bytes",
                          {"total_inactive_file", "total_active_file"}},
-                        least);
+                        min);
         }
     }
 }
 
-void takeLimits(const fs::path& root, Least& least) {
+void takeLimits(const fs::path& root, Least& min) {
     struct Row {
         const char *limit, *used, *name;
     };
     for (const Row& row :
          {Row{"Max address space", "VmSize:", "ulimit -v"}, Row{"Max data size", "VmData:", "ulimit -d"}})
         if (const auto limit = labelled(root / "proc/self/limits", row.limit))
-            least.take(limit, labelled(root / "proc/self/status", row.used).value_or(0) * kilobyte, row.name);
+            min.take(limit, labelled(root / "proc/self/status", row.used).value_or(0) * kilobyte, row.name);
 }
 
 std::string gigabytes(std::uint64_t bytes) {
@@ -129,11 +129,11 @@ std::string gigabytes(std::uint64_t bytes) {
 }  // namespace
 
 FreeMemory freeMemory(const fs::path& root) {
-    Least least;
-    takeMachine(root, least);
-    takeCgroups(root, least);
-    takeLimits(root, least);
-    return least.free;
+    Least min;
+    takeMachine(root, min);
+    takeCgroups(root, min);
+    takeLimits(root, min);
+    return min.free;
 }
 
 void checkMemory(const std::string& what, std::uint64_t needed, const std::string& remedy,

@@ -45,9 +45,9 @@ void orient(ImageFile& file, int orientation) {
     if (orientation >= 5) std::swap(file.width, file.height);
 }
 
-ImageFile imageOfPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+ImageFile imageOfPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max,
                      EightBits eight) {
-    PngImage png = readPngImage(bytes, name, most, eight);
+    PngImage png = readPngImage(bytes, name, max, eight);
     ImageFile file =
         ofOneLayer("PNG", png.bits == 16 ? "16 bit" : "8 bit", std::move(png.image), std::move(png.coded));
     orient(file, orientationOfPng(bytes));
@@ -57,8 +57,8 @@ ImageFile imageOfPng(std::span<const std::byte> bytes, const std::string& name, 
     return file;
 }
 
-ImageFile imageOfTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    TiffImage tiff = readTiff(bytes, name, most);
+ImageFile imageOfTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max) {
+    TiffImage tiff = readTiff(bytes, name, max);
     ImageFile file = ofOneLayer("TIFF", tiff.sample, std::move(tiff.image));
     file.display_referred = !tiff.linear;
     file.straight_alpha = !tiff.associated;
@@ -99,12 +99,12 @@ FileNotes notesOfJpeg(std::span<const std::byte> bytes) {
 }
 
 // The values of a JPEG without colour conversion: value / 255. It has no alpha.
-ImageFile imageOfJpeg(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+ImageFile imageOfJpeg(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max,
                       EightBits eight) {
     return named(name, [&] {
         const std::span encoded = encodedJpeg(bytes);
         const JpegSize size = readJpegSize(encoded);
-        checkImageSize(size.width, size.height, sizeOfJpeg(size, eight).bytes_per_pixel, most);
+        checkImageSize(size.width, size.height, sizeOfJpeg(size, eight).bytes_per_pixel, max);
         if (size.width * size.height / jpeg_pixels_per_byte > static_cast<std::int64_t>(bytes.size()))
             failToHold(size.width, size.height, bytes.size());
         const int width = static_cast<int>(size.width), height = static_cast<int>(size.height);
@@ -127,15 +127,15 @@ ImageFile imageOfJpeg(std::span<const std::byte> bytes, const std::string& name,
     });
 }
 
-ImageFile imageOfHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    HdrImage hdr = readHdr(bytes, name, most);
+ImageFile imageOfHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max) {
+    HdrImage hdr = readHdr(bytes, name, max);
     ImageFile file = ofOneLayer("Radiance HDR", "RGBE", std::move(hdr.image));
     file.notes = std::move(hdr.notes);
     return file;
 }
 
-ImageFile imageOfPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    PfmImage pfm = readPfm(bytes, name, most);
+ImageFile imageOfPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max) {
+    PfmImage pfm = readPfm(bytes, name, max);
     ImageFile file = ofOneLayer("PFM", "float", std::move(pfm.image));
     if (pfm.behind > 0)
         file.notes.in_part.push_back(
@@ -176,34 +176,34 @@ ImageSize sizeOfExr(std::span<const std::byte> bytes, std::string_view part) {
 }
 
 ImageFile readOf(Format format, std::span<const std::byte> bytes, const std::string& name,
-                 std::string_view part, std::uint64_t most, EightBits eight) {
+                 std::string_view part, std::uint64_t max, EightBits eight) {
     switch (format) {
         case Format::exr:
-            return readExr(bytes, name, most, part);
+            return readExr(bytes, name, max, part);
         case Format::png:
-            return imageOfPng(bytes, name, most, eight);
+            return imageOfPng(bytes, name, max, eight);
         case Format::jpeg:
-            return imageOfJpeg(bytes, name, most, eight);
+            return imageOfJpeg(bytes, name, max, eight);
         case Format::tiff:
-            return imageOfTiff(bytes, name, most);
+            return imageOfTiff(bytes, name, max);
         case Format::hdr:
-            return imageOfHdr(bytes, name, most);
+            return imageOfHdr(bytes, name, max);
         case Format::pfm:
             break;
     }
-    return imageOfPfm(bytes, name, most);
+    return imageOfPfm(bytes, name, max);
 }
 
 }  // namespace
 
 ImageFile readImage(std::span<const std::byte> bytes, const std::string& name, std::string_view part,
-                    std::uint64_t most, EightBits eight) {
+                    std::uint64_t max, EightBits eight) {
     const ImageSize size = imageSize(bytes, name, part, eight);
     Claim claim = named(name, [&] {
         return claimMemory(static_cast<std::uint64_t>(size.width * size.height * size.bytes_per_pixel),
                            bytes.size(), fmt::format("an image of {} x {} pixels", size.width, size.height));
     });
-    ImageFile file = readOf(formatOf(bytes, name, part), bytes, name, part, most, eight);
+    ImageFile file = readOf(formatOf(bytes, name, part), bytes, name, part, max, eight);
     file.claim = std::move(claim);
     return file;
 }

@@ -30,7 +30,7 @@ ImageName imageName(const std::filesystem::path& words);
 // std::runtime_error, one line that names file and fault.
 ImageFile readImage(const std::filesystem::path& file, std::string_view part = {});
 ImageFile readImage(std::span<const std::byte> bytes, const std::string& name, std::string_view part = {},
-                    std::uint64_t most = limits::imageBytes(), EightBits eight = EightBits::decoded);
+                    std::uint64_t max = limits::imageBytes(), EightBits eight = EightBits::decoded);
 
 // The size that readImage() would decode, from the header only. Throws as it does.
 ImageSize imageSize(std::span<const std::byte> bytes, const std::string& name, std::string_view part = {},

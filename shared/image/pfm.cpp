@@ -96,12 +96,12 @@ ImageSize pfmSize(std::span<const std::byte> bytes) {
     return {header.width, header.height, std::int64_t{sizeof(float)} * header.components};
 }
 
-PfmImage readPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+PfmImage readPfm(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max) {
     return named(name, [&] {
         std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         const PfmHeader header = readHeader(rest);
         const std::int64_t pixel = std::int64_t{sizeof(float)} * header.components;
-        checkImageSize(header.width, header.height, pixel, most);
+        checkImageSize(header.width, header.height, pixel, max);
         const auto size = static_cast<std::size_t>(pixel * header.width * header.height);
         // One blank ends the header. CR LF counts as one if the file is long enough; otherwise LF belongs
         // to a pixel.

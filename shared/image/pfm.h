@@ -24,7 +24,7 @@ struct PfmImage {
 // whose meaning the format leaves open; a scale of 1 preserves all bits. Rejects files that need more than
 // `most` bytes decoded. Throws std::runtime_error, one line that names file and fault.
 PfmImage readPfm(std::span<const std::byte> bytes, const std::string& name,
-                 std::uint64_t most = limits::imageBytes());
+                 std::uint64_t max = limits::imageBytes());
 
 // Reads only the header. Throws std::runtime_error without the file's name.
 ImageSize pfmSize(std::span<const std::byte> bytes);

@@ -43,7 +43,7 @@ enum class EightBits { decoded, kept };
 // Reads a PNG. An interlaced file needs additional memory for all stored rows. Rejects files that need
 // more than `most` bytes decoded. Throws std::runtime_error, one line that names file and fault.
 PngImage readPngImage(std::span<const std::byte> bytes, const std::string& name,
-                      std::uint64_t most = limits::imageBytes(), EightBits eight = EightBits::decoded);
+                      std::uint64_t max = limits::imageBytes(), EightBits eight = EightBits::decoded);
 
 // Reads only the header. Throws std::runtime_error without the file's name.
 ImageSize pngSize(std::span<const std::byte> bytes, EightBits eight);
@@ -51,7 +51,7 @@ ImageSize pngSize(std::span<const std::byte> bytes, EightBits eight);
 // Reads a PNG as 8-bit RGBA.
 Image8 readPng(const std::filesystem::path& file);
 Image8 readPng(std::span<const std::byte> bytes, const std::string& name,
-               std::uint64_t most = limits::imageBytes());
+               std::uint64_t max = limits::imageBytes());
 
 // The size of a PNG as RGBA, from its header: 16 bits per component if `deep`, otherwise 8.
 struct PngRgba {

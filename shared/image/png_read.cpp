@@ -128,13 +128,13 @@ ImageSize sizeOf(const PngDecoder& decoder, bool kept) {
     return {decoder.width(), decoder.height(), std::int64_t{bytes + rows} * decoder.components()};
 }
 
-PngImage decode(std::span<const std::byte> bytes, std::uint64_t most, EightBits eight) {
+PngImage decode(std::span<const std::byte> bytes, std::uint64_t max, EightBits eight) {
     PngDecoder decoder(bytes, PngDecoder::Rows::as_stored, cutShort);
     decoder.readHeader();
     Encoding encoding = encodingOf(bytes);
     const bool kept = isKept(decoder, encoding, eight);
     const auto [width, height, bytesPerPixel] = sizeOf(decoder, kept);
-    checkImageSize(width, height, bytesPerPixel, most);
+    checkImageSize(width, height, bytesPerPixel, max);
     const int components = decoder.components(), bits = decoder.bits();
     const bool interlaced = decoder.isInterlaced();
     checkDeflated(width, height, storedBits(bytes), bytes.size());
@@ -176,9 +176,9 @@ std::uint8_t byteOf(float value) {
 
 }  // namespace
 
-PngImage readPngImage(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most,
+PngImage readPngImage(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max,
                       EightBits eight) {
-    return named(name, [&] { return decode(bytes, most, eight); });
+    return named(name, [&] { return decode(bytes, max, eight); });
 }
 
 ImageSize pngSize(std::span<const std::byte> bytes, EightBits eight) {
@@ -196,8 +196,8 @@ void readPngRgba(std::span<const std::byte> bytes, const PngRgba& expected, unsi
     decoder.readAll(pixels);
 }
 
-Image8 readPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    const Image image = readPngImage(bytes, name, most).image;
+Image8 readPng(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max) {
+    const Image image = readPngImage(bytes, name, max).image;
     Image8 rgba{image.width, image.height, 4, std::vector<std::uint8_t>(4 * image.pixels())};
     const int colors = image.components > 2 ? 3 : 1;
     for (std::size_t i = 0; i < image.pixels(); ++i) {

@@ -57,9 +57,9 @@ std::optional<glm::dmat3> matrixToRec709(const Primaries& primaries, FileNotes& 
     // Four digits of 0.06, the smallest coordinate of Rec. 709, cause such an error; so does adaptation to
     // D50.
     constexpr double rounding = 1e-3;
-    double most = 0;
-    for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(matrix[i / 3][i % 3] - (i / 3 == i % 3)));
-    if (most <= rounding) return {};
+    double max = 0;
+    for (int i = 0; i < 9; ++i) max = std::max(max, std::abs(matrix[i / 3][i % 3] - (i / 3 == i % 3)));
+    if (max <= rounding) return {};
     notes.lines.push_back("its colours were converted from " + text + " to Rec. 709's");
     return matrix;
 }

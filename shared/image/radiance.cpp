@@ -207,11 +207,11 @@ float decoded(std::uint8_t mantissa, std::uint8_t exponent, double scale) {
     return static_cast<float>(std::ldexp(mantissa + 0.5, exponent - (128 + 8)) * scale);
 }
 
-HdrImage readImage(std::span<const std::byte> bytes, std::uint64_t most) {
+HdrImage readImage(std::span<const std::byte> bytes, std::uint64_t max) {
     RadianceCursor in(bytes);
     const RadianceHeader header = readHeader(in);
     const Orientation& order = header.orientation;
-    checkImageSize(header.width, header.height, 3 * sizeof(float), most);
+    checkImageSize(header.width, header.height, 3 * sizeof(float), max);
     const int lines = order.columns ? header.width : header.height;
     const int length = order.columns ? header.height : header.width;
     constexpr std::size_t shortest_line = 4;  // for a line of one pixel; longer lines need more
@@ -310,8 +310,8 @@ ImageSize hdrSize(std::span<const std::byte> bytes) {
     return {header.width, header.height, 3 * sizeof(float)};
 }
 
-HdrImage readHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
-    return named(name, [&] { return readImage(bytes, most); });
+HdrImage readHdr(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max) {
+    return named(name, [&] { return readImage(bytes, max); });
 }
 
 std::size_t writeHdr(const std::filesystem::path& file, const Image& image) {

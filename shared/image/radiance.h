@@ -25,7 +25,7 @@ struct HdrImage {
     FileNotes notes{};
 };
 HdrImage readHdr(std::span<const std::byte> bytes, const std::string& name,
-                 std::uint64_t most = limits::imageBytes());
+                 std::uint64_t max = limits::imageBytes());
 
 // Reads only the header. Throws std::runtime_error without the file's name.
 ImageSize hdrSize(std::span<const std::byte> bytes);

@@ -62,11 +62,11 @@ int ignoreWarning(TIFF*, void*, const char*, const char*, va_list) {
 using OpenTiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 
 // libtiff allocates no block larger than `most`, whatever the file claims.
-OpenTiff openTiff(TiffBytes& file, std::uint64_t most) {
+OpenTiff openTiff(TiffBytes& file, std::uint64_t max) {
     const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
                                                                                    TIFFOpenOptionsFree);
     TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(),
-                                        static_cast<tmsize_t>(std::min<std::uint64_t>(most, 1ull << 40)));
+                                        static_cast<tmsize_t>(std::min<std::uint64_t>(max, 1ull << 40)));
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keepError, &file);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignoreWarning, nullptr);
     // "m": no memory mapping, because the file is already in memory.
@@ -126,7 +126,7 @@ std::string sampleOf(const TiffLayout& layout) {
     return fmt::format("{} bit", layout.bits);
 }
 
-TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t most) {
+TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t max) {
     TiffLayout layout;
     layout.width = tagOf<std::uint32_t>(tiff, TIFFTAG_IMAGEWIDTH, 0);
     layout.height = tagOf<std::uint32_t>(tiff, TIFFTAG_IMAGELENGTH, 0);
@@ -165,7 +165,7 @@ TiffLayout layoutOf(TIFF* tiff, std::size_t fileBytes, std::uint64_t most) {
                         "PackBits (32773)",
                         layout.compression));
     checkImageSize(layout.width, layout.height, static_cast<std::int64_t>(sizeof(float)) * layout.components,
-                   most);
+                   max);
     const std::uint64_t stored =
         std::uint64_t{layout.width} * layout.height * layout.components * layout.bytesPerSample();
     if (stored / ratio > fileBytes) failToHold(layout.width, layout.height, fileBytes);
@@ -207,12 +207,12 @@ public:
     }
 
     // Returns whether all could be read from a file of `held` bytes; each may take `most` bytes.
-    bool read(std::uint64_t most, std::uint64_t held) {
+    bool read(std::uint64_t max, std::uint64_t held) {
         if (width_ < 1 || height_ < 1 || width_ > limits::image_side || height_ > limits::image_side)
             return false;
         const std::uint64_t size = std::uint64_t{width_} * height_ * samples_ * layout_.bytesPerSample();
         const tmsize_t expected = layout_.tiled ? TIFFTileSize(tiff_) : TIFFStripSize(tiff_);
-        if (size > most || expected < 0 || static_cast<std::uint64_t>(expected) != size) return false;
+        if (size > max || expected < 0 || static_cast<std::uint64_t>(expected) != size) return false;
         // libtiff's own buffer, and ours.
         const Claim claim =
             claimMemory(2 * size, held, fmt::format("a tile or strip of {} x {} pixels", width_, height_));
@@ -304,12 +304,12 @@ ImageSize tiffSize(std::span<const std::byte> bytes) {
     return size;
 }
 
-TiffImage readTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t most) {
+TiffImage readTiff(std::span<const std::byte> bytes, const std::string& name, std::uint64_t max) {
     return named(name, [&] {
         TiffBytes file{bytes};
-        const OpenTiff tiff = openTiff(file, most);
+        const OpenTiff tiff = openTiff(file, max);
         if (!tiff) failToDecode(file);
-        const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), most);
+        const TiffLayout layout = layoutOf(tiff.get(), bytes.size(), max);
         TiffImage image;
         image.image =
             Image(static_cast<int>(layout.width), static_cast<int>(layout.height), layout.components);
@@ -319,7 +319,7 @@ TiffImage readTiff(std::span<const std::byte> bytes, const std::string& name, st
         const std::uint16_t* kinds = nullptr;
         image.associated = TIFFGetField(tiff.get(), TIFFTAG_EXTRASAMPLES, &extra, &kinds) == 1 && extra > 0 &&
                            kinds[0] == EXTRASAMPLE_ASSOCALPHA;
-        if (!Pieces(tiff.get(), layout, image.image).read(most, bytes.size())) failToDecode(file);
+        if (!Pieces(tiff.get(), layout, image.image).read(max, bytes.size())) failToDecode(file);
         image.image = oriented(std::move(image.image), layout.orientation);
         describe(tiff.get(), image);
         if (isInverted(layout)) image.notes.lines.emplace_back("its values are inverted: 0 is white in it");

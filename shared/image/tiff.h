@@ -30,7 +30,7 @@ bool isTiff(std::span<const std::byte> bytes);
 // Rejects files that need more than `most` bytes decoded. Throws std::runtime_error, one line that names
 // file and fault.
 TiffImage readTiff(std::span<const std::byte> bytes, const std::string& name,
-                   std::uint64_t most = limits::imageBytes());
+                   std::uint64_t max = limits::imageBytes());
 
 // Reads only the tags. Throws std::runtime_error without the file's name.
 ImageSize tiffSize(std::span<const std::byte> bytes);

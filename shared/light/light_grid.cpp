@@ -20,12 +20,12 @@ constexpr double radius_rounding = 4e-6;
 // Coarsest slices that are tried, log2: four per octave of depth + offset, so a slice's depth range is an
 // eighth to a quarter of its distance.
 constexpr gpu::uint octaveShift = 23 - 2;
-constexpr gpu::uint mostSlices = 128;
+constexpr gpu::uint maxSlices = 128;
 constexpr gpu::uint finestTile = 3, coarsestTile = 6;  // pixels, log2
 // Keeps the loops of the LIGHT_THREADS threads of a light that reaches all cells far below lavapipe's
 // limit.
-constexpr std::uint64_t mostCells = 131072;
-static_assert(mostCells / gpu::LIGHT_THREADS < 65535 / 2);
+constexpr std::uint64_t maxCells = 131072;
+static_assert(maxCells / gpu::LIGHT_THREADS < 65535 / 2);
 
 double middle(std::vector<double> values, double otherwise) {
     if (values.empty()) return otherwise;
@@ -85,7 +85,7 @@ double reachVolume(const gpu::LightGrid& grid, bool orthographic, const TypicalL
 // Chooses tile and slice sizes that minimize the total cost of list building and shading. The number of
 // lights per cell is estimated for one grid and scaled to others by reachVolume().
 void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::LightBound> bounds,
-                 const DeviceCosts& costs, std::uint64_t most) {
+                 const DeviceCosts& costs, std::uint64_t max) {
     const bool orthographic = view.camera.orthographic;
     const TypicalLight typical = typicalLight(bounds);
     grid.slice_offset = static_cast<float>(2 * typical.radius);
@@ -101,23 +101,23 @@ void sizeFroxels(gpu::LightGrid& grid, const View& view, std::span<const gpu::Li
         return std::uint64_t{g.tiles.x} * g.tiles.y * g.slices;
     };
     gpu::uint coarsest = octaveShift;
-    while (sized(coarsestTile, coarsest).slices > std::min<std::uint64_t>(mostSlices, most)) ++coarsest;
+    while (sized(coarsestTile, coarsest).slices > std::min<std::uint64_t>(maxSlices, max)) ++coarsest;
     grid = sized(coarsestTile, coarsest);
-    while (cells(grid) > most) grid = sized(grid.tile_shift + 1, coarsest);
+    while (cells(grid) > max) grid = sized(grid.tile_shift + 1, coarsest);
     const gpu::uint largest = grid.tile_shift;
     const double pixels = static_cast<double>(view.width) * view.height;
     const double lights = static_cast<double>(listedAtMost(grid, orthographic, bounds)) /
                           (static_cast<double>(cells(grid)) * reachVolume(grid, orthographic, typical));
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     for (gpu::uint tile = finestTile; tile <= largest; ++tile)
         for (gpu::uint slice = coarsest + 1; slice-- > 0;) {
             const gpu::LightGrid g = sized(tile, slice);
-            if (g.slices > mostSlices || cells(g) > most) break;
+            if (g.slices > maxSlices || cells(g) > max) break;
             const double listed = lights * reachVolume(g, orthographic, typical);
             const double cost = static_cast<double>(cells(g)) * (costs.list + listed * costs.listed) +
                                 pixels * listed * costs.evaluated;
-            if (cost < least) {
-                least = cost;
+            if (cost < min) {
+                min = cost;
                 grid = g;
             }
         }
@@ -230,7 +230,7 @@ gpu::LightGrid makeLightGrid(const GridLists& of, const View& view, const GpuLig
     grid.slices = 1;
     if (of.lists == gpu::LISTS_CLUSTERED)
         sizeFroxels(grid, view, bounds, costs,
-                    std::min(mostCells, buffer_bytes / (4 * std::max(grid.words, 1u))));
+                    std::min(maxCells, buffer_bytes / (4 * std::max(grid.words, 1u))));
     else
         sizeTiles(grid, view, std::bit_width(gpu::LIGHT_TILE) - 1);
     const auto count = [&] {
@@ -242,7 +242,7 @@ gpu::LightGrid makeLightGrid(const GridLists& of, const View& view, const GpuLig
     const auto longestRow = [&] {
         return std::max(count(), std::uint64_t{grid.tiles.x} * grid.tiles.y + grid.slices);
     };
-    while (longestRow() * grid.words * 4 > buffer_bytes || count() > mostCells)
+    while (longestRow() * grid.words * 4 > buffer_bytes || count() > maxCells)
         sizeTiles(grid, view, grid.tile_shift + 1);
     const std::uint64_t pairs = listedAtMost(grid, view.camera.orthographic, bounds) * (of.in_front ? 2 : 1);
     // An entry of four lights costs as much as three entries of one, so wide entries suit long lists.

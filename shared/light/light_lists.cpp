@@ -15,7 +15,7 @@ namespace {
 constexpr auto listTypes = bindingTypes({LIST_BINDINGS(DIPTYCH_BINDING_ROW)});
 
 // Size limit of each buffer, even if the device allows more.
-constexpr std::uint64_t mostBytes = std::uint64_t{256} << 20;
+constexpr std::uint64_t maxBytes = std::uint64_t{256} << 20;
 
 constexpr std::uint32_t threads = 64;  // per workgroup, in all compute shaders but the prefix sum
 
@@ -56,7 +56,7 @@ GpuBuffer listBuffer(Device& device, const char* name, std::uint64_t count, std:
 }
 
 // Number of texels of the largest buffer that shaders may read as texels.
-std::uint64_t mostTexels(const gpu::LightGrid& grid, const GpuLights& lights, std::size_t bounds) {
+std::uint64_t maxTexels(const gpu::LightGrid& grid, const GpuLights& lights, std::size_t bounds) {
     constexpr std::uint64_t texel = sizeof(gpu::vec4);
     return std::max({lights.lights.size() * sizeof(gpu::Light) / texel,
                      lights.spot_cones.size() * sizeof(gpu::SpotCone) / texel,
@@ -92,9 +92,9 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     if (any()) {
         bounds = lightBounds(lights, view);
         grid_ = makeLightGrid({choice_.lists, choice_.in_front}, view, lights, bounds, device.profile().costs,
-                              std::min(std::uint64_t{device.limits().maxStorageBufferRange}, mostBytes));
+                              std::min(std::uint64_t{device.limits().maxStorageBufferRange}, maxBytes));
     }
-    addressed_ = mostTexels(grid_, lights, bounds.size()) > device.limits().maxTexelBufferElements;
+    addressed_ = maxTexels(grid_, lights, bounds.size()) > device.limits().maxTexelBufferElements;
     makeLists();
     if (any()) {
         const std::vector<gpu::uint> all = listOfAll(grid_);

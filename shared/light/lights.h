@@ -50,7 +50,7 @@ struct GpuLights {
 // Projected area of the area light `i` from afar, m^2, which converts radiance to intensity: the largest
 // over all directions, and in the unit direction `to_place` from its centre.
 struct ShownArea {
-    double most, there;
+    double max, there;
 };
 ShownArea shownArea(const GpuLights& lights, std::size_t i, const glm::dvec3& to_place);
 

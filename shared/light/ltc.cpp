@@ -41,9 +41,9 @@ LtcLobe LtcCell::lobe(double f0, double f90) const {
         const double all = reflected(from, std::max(to, from));
         return all > 0 ? from * double{magnitude} / all : 0;
     };
-    const double least = evenShare(double{gpu::LTC_LAYER_F0}, 1);
+    const double min = evenShare(double{gpu::LTC_LAYER_F0}, 1);
     const auto t =
-        static_cast<float>(std::clamp((evenShare(f0, f90) - least) / std::max(1 - least, 1e-6), 0.0, 1.0));
+        static_cast<float>(std::clamp((evenShare(f0, f90) - min) / std::max(1 - min, 1e-6), 0.0, 1.0));
     return {.in_plane = std::lerp(layer.in_plane, even.in_plane, t),
             .across = std::lerp(layer.across, even.across, t),
             .unsheared = std::lerp(layer.unsheared, even.unsheared, t),
@@ -52,8 +52,8 @@ LtcLobe LtcCell::lobe(double f0, double f90) const {
 }
 
 LtcCell LtcTable::at(double roughness, double n_dot_v) const {
-    constexpr double least{gpu::MIN_PERCEPTUAL_ROUGHNESS};
-    const double x = std::clamp((roughness - least) / (1 - least), 0.0, 1.0) * last_cell;
+    constexpr double min{gpu::MIN_PERCEPTUAL_ROUGHNESS};
+    const double x = std::clamp((roughness - min) / (1 - min), 0.0, 1.0) * last_cell;
     const double y = (1 - std::sqrt(std::clamp(n_dot_v, 0.0, 1.0))) * last_cell;
     const double i = std::min(std::floor(x), last_cell - 1), j = std::min(std::floor(y), last_cell - 1);
     const auto u = static_cast<float>(x - i), v = static_cast<float>(y - j);

@@ -88,7 +88,7 @@ double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& o
     if (const gpu::AreaLight* area = lights.shapeOf(i)) {
         const double extent = double{area->extent}, near = std::max(nearest - extent, 0.0);
         const double square = near * near + radius * radius / 4 + extent * extent + 1e-20;
-        shone = strength * reach * shownArea(lights, i, {}).most / square;
+        shone = strength * reach * shownArea(lights, i, {}).max / square;
     }
     if (const gpu::SpotCone* cone = lights.coneOf(i))
         shone *= coneAt(lights.falloff, *cone,

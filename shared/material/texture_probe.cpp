@@ -89,9 +89,9 @@ TextureImage noise(std::uint32_t& state) {
     for (std::uint32_t band = 0; band < contrasts.size(); ++band)
         for (int block = 0; block < noiseSide / 8; ++block) {
             // A block of 8 x 8 texels; `least` is its darkest code.
-            const std::uint32_t least = random() % (257 - contrasts[band]);
+            const std::uint32_t min = random() % (257 - contrasts[band]);
             for (int i = 0; i < 8 * 8 * 4; ++i)
-                image.rgba.push_back(static_cast<std::uint8_t>(least + random() % contrasts[band]));
+                image.rgba.push_back(static_cast<std::uint8_t>(min + random() % contrasts[band]));
         }
     // Converts blocks to rows.
     std::vector<std::uint8_t> rows(image.rgba.size());
@@ -112,8 +112,8 @@ struct Mixture {
         return (texels[0] * (1 - x) + texels[1] * x) * (1 - y) + (texels[2] * (1 - x) + texels[3] * x) * y;
     }
     double range() const {
-        const auto [least, most] = std::ranges::minmax(texels);
-        return most - least;
+        const auto [min, max] = std::ranges::minmax(texels);
+        return max - min;
     }
 };
 
@@ -213,10 +213,10 @@ FilterBound boundOf(std::span<const FilterSample> samples) {
     std::ranges::sort(sorted, [](const FilterSample& a, const FilterSample& b) {
         return std::pair(a.range, a.error) < std::pair(b.range, b.error);
     });
-    double mean = 0, most = 0;
+    double mean = 0, max = 0;
     for (const FilterSample& s : sorted) {
         mean += s.range / static_cast<double>(sorted.size());
-        most = std::max(most, s.error);
+        max = std::max(max, s.error);
     }
     std::vector<FilterSample> hull{{0, 0}};
     const auto isBelow = [](const FilterSample& a, const FilterSample& b, const FilterSample& c) {
@@ -234,7 +234,7 @@ FilterBound boundOf(std::span<const FilterSample> samples) {
         const double weight = (b.error - a.error) / (b.range - a.range);
         return {a.error - weight * a.range, weight};
     }
-    return {most, 0};
+    return {max, 0};
 }
 
 TextureSampling probeTextures(Device& device, TexturePrecision precision) {
@@ -260,18 +260,18 @@ std::vector<DeviceProperty> textureProperties(const Device& device, const Textur
     // Vulkan: weights have at least subTexelPrecisionBits, and sRGB keeps 8 bits, so half a code.
     const double share = std::exp2(-static_cast<double>(device.limits().subTexelPrecisionBits));
     const auto decode = [](const char* what, const TextureSampling& s) {
-        double most = 0, halfCode = 0;
+        double max = 0, halfCode = 0;
         std::size_t worst = 0;
         for (std::size_t code = 1; code < 256; ++code) {
             const double off = s.srgbError(code) / exactSrgb(code);
-            if (off > most) {
-                most = off, worst = code;
+            if (off > max) {
+                max = off, worst = code;
                 halfCode = (exactSrgb(code) - exactSrgb(code - 1)) / (2 * exactSrgb(code));
             }
         }
-        return DeviceProperty{what, most <= 1e-3, false,
+        return DeviceProperty{what, max <= 1e-3, false,
                               fmt::format("error up to {:.2g} %, at code {}; Vulkan allows {:.2g} %",
-                                          100 * most, worst, 100 * halfCode)};
+                                          100 * max, worst, 100 * halfCode)};
     };
     const auto filter = [&](const char* what, const FilterBound& bound) {
         return DeviceProperty{

@@ -31,11 +31,11 @@ TextureFormat textureFormat(const Device& device, const TextureImage& image, boo
 }
 
 GpuImage uploadTexture(Device& device, Uploader& uploader, const MipChain& chain, VkFormat format) {
-    const auto most = static_cast<int>(device.limits().maxImageDimension2D);
-    if (chain.width() > most || chain.height() > most)
+    const auto max = static_cast<int>(device.limits().maxImageDimension2D);
+    if (chain.width() > max || chain.height() > max)
         throw std::runtime_error(fmt::format("image {}: has {} x {} pixels; {} supports up to {} per side",
                                              chain.name(), chain.width(), chain.height(), device.info().name,
-                                             most));
+                                             max));
     GpuImage image(device, {.name = chain.name(),
                             .format = format,
                             .width = static_cast<std::uint32_t>(chain.width()),

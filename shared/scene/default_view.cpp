@@ -29,10 +29,10 @@ constexpr double clearlyMore = 1;  // bits
 // Least fraction of directions that hit front faces for an eye to be indoors. A floor under the sky gives
 // 0.5, a closed room 1; 0.75 accepts a courtyard.
 constexpr double surrounded = 0.75;
-constexpr double leastHeadroom = 2, eyeHeight = 1.6;  // m, glTF's unit
-constexpr int columns = 7;                            // candidate eyes lie on a grid of columns x columns
-constexpr int mostFloors = 16;                        // per column
-constexpr std::size_t mostEyes = 16;                  // the most spacious ones are rated
+constexpr double minHeadroom = 2, eyeHeight = 1.6;  // m, glTF's unit
+constexpr int columns = 7;                          // candidate eyes lie on a grid of columns x columns
+constexpr int maxFloors = 16;                       // per column
+constexpr std::size_t maxEyes = 16;                 // the most spacious ones are rated
 constexpr int aroundDirections = 96, yaws = 8;
 
 // The radius of the bounds, or a substitute if they are empty or a single point.
@@ -120,7 +120,7 @@ public:
                          [](const auto& a, const auto& b) { return a.first > b.first; });
         std::vector<glm::dvec3> best;
         for (const auto& [space, eye] : eyes)
-            if (best.size() < mostEyes) best.push_back(eye);
+            if (best.size() < maxEyes) best.push_back(eye);
         return best;
     }
 
@@ -153,7 +153,7 @@ private:
         const double step = 1e-4 * usableRadius(bounds_);
         std::vector<double> heights;
         double from = bounds_.max.y + step;
-        for (int i = 0; i < mostFloors; ++i) {
+        for (int i = 0; i < maxFloors; ++i) {
             const auto hit = surface_.nearest({x, from, z}, {0, -1, 0});
             if (!hit) break;
             const double height = from - hit->distance;
@@ -170,7 +170,7 @@ private:
         const double step = 1e-4 * usableRadius(bounds_);
         const auto above = surface_.nearest(floor + glm::dvec3(0, step, 0), {0, 1, 0});
         const double headroom = above ? above->distance : bounds_.max.y - floor.y;
-        if (!(headroom >= leastHeadroom)) return std::nullopt;
+        if (!(headroom >= minHeadroom)) return std::nullopt;
         const double height = std::max(eyeHeight, headroom / 5);
         const glm::dvec3 eye = floor + glm::dvec3(0, height, 0);
         const double reach = std::max(height / 2, usableRadius(bounds_) / 20);

@@ -54,9 +54,8 @@ void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::se
                 r.max_lightmap, m.lightmap_intensity * scene.images[static_cast<std::size_t>(image)].largest);
         }
         if (i == gpu::SLOT_iridescence_thickness)
-            r.film_thickness_range =
-                std::max(r.film_thickness_range,
-                         std::abs(m.iridescence_thickness_most - m.iridescence_thickness_least));
+            r.film_thickness_range = std::max(
+                r.film_thickness_range, std::abs(m.iridescence_thickness_max - m.iridescence_thickness_min));
         r.texture_transform |= isTransformed(slot);
     }
 }

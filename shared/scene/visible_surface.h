@@ -18,11 +18,11 @@ class VisibleSurface {
 public:
     // Above this count, a random but deterministic subset of triangles is kept, enlarged to the same total
     // area.
-    static constexpr std::uint64_t mostTriangles = 1 << 19;
+    static constexpr std::uint64_t maxTriangles = 1 << 19;
 
     // `bounds`: of the pose. Triangles with zero area or non-finite positions are omitted.
     VisibleSurface(const Scene& scene, const Pose& pose, const Bounds& bounds,
-                   std::uint64_t limit = mostTriangles);
+                   std::uint64_t limit = maxTriangles);
     ~VisibleSurface();
     VisibleSurface(const VisibleSurface&) = delete;
     VisibleSurface& operator=(const VisibleSurface&) = delete;

@@ -92,17 +92,17 @@ private:
     const std::vector<std::size_t>& pages(const Corners& corners, std::size_t level) {
         pages_.clear();
         const bool whole = level + 1 == clipmap_.levels.size();
-        glm::dvec2 least(std::numeric_limits<double>::infinity()), most(-least);
+        glm::dvec2 min(std::numeric_limits<double>::infinity()), max(-min);
         for (const glm::dvec3& corner : corners) {
             const glm::dvec2 at =
                 (glm::dvec2(clipmap_.grid.space.from(corner + eye_)) - clipmap_.levels[level].area.corner) /
                 sideOf(level);
-            least = glm::min(least, at - room);
-            most = glm::max(most, at + room);
+            min = glm::min(min, at - room);
+            max = glm::max(max, at + room);
         }
         const double last = whole ? 0 : clipmap_.width - 1;
-        const glm::ivec2 first(glm::clamp(glm::floor(least), 0.0, last)),
-            end(glm::clamp(glm::floor(most), 0.0, last));
+        const glm::ivec2 first(glm::clamp(glm::floor(min), 0.0, last)),
+            end(glm::clamp(glm::floor(max), 0.0, last));
         for (int y = first.y; y <= end.y; ++y)
             for (int x = first.x; x <= end.x; ++x) pages_.push_back(clipmap_.numberOf({level, x, y}));
         return pages_;

@@ -91,15 +91,15 @@ std::vector<double> splitDepths(double near, double far, int count) {
 Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& to_light,
                      const CascadeRequest& request) {
     Cascades cascades{.space = lightSpace(to_light)};
-    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+    glm::dvec3 min(std::numeric_limits<double>::infinity()), max(-min);
     for (const glm::dvec3& corner : cornersOf(bounds)) {
-        least = glm::min(least, cascades.space.from(corner));
-        most = glm::max(most, cascades.space.from(corner));
+        min = glm::min(min, cascades.space.from(corner));
+        max = glm::max(max, cascades.space.from(corner));
     }
     // Margin for rounding, and a range that is not empty for flat scenes.
-    const double room = 1e-4 * std::max({most.z - least.z, most.x - least.x, most.y - least.y, 1e-9});
-    cascades.near = most.z + room;
-    cascades.far = least.z - room;
+    const double room = 1e-4 * std::max({max.z - min.z, max.x - min.x, max.y - min.y, 1e-9});
+    cascades.near = max.z + room;
+    cascades.far = min.z - room;
 
     const double distance = request.distance > 0 ? request.distance : reachOf(view, bounds);
     double far = std::min(view.camera.far, distance), begin = 0, near = view.camera.near;
@@ -113,7 +113,7 @@ Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& t
     }
     near = std::max(near, far * nearestShare);
     const double inner = std::max(request.size - 2 * marginOf(request), 1.0);
-    const double sceneSide = std::max(most.x - least.x, most.y - least.y) + 2 * room;
+    const double sceneSide = std::max(max.x - min.x, max.y - min.y) + 2 * room;
     for (const double end : splitDepths(near, far, request.count)) {
         CascadeArea area{.begin = begin, .end = end};
         const Sphere sphere = sphereOf(view, begin, end);
@@ -121,7 +121,7 @@ Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& t
         const double side = whole ? sceneSide : 2 * sphere.radius;
         area.texel = side / inner;
         const glm::dvec2 centre =
-            whole ? glm::dvec2(least + most) / 2.0 : glm::dvec2(cascades.space.from(sphere.centre));
+            whole ? glm::dvec2(min + max) / 2.0 : glm::dvec2(cascades.space.from(sphere.centre));
         area.corner = (glm::floor(centre / area.texel) - request.size / 2.0) * area.texel;
         cascades.areas.push_back(area);
         begin = end - cascadeBlend * (end - begin);

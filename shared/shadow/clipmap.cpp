@@ -26,24 +26,24 @@ int gutterOf(const ClipmapRequest& request) {
 
 PageGrid gridOf(const Bounds& bounds, const glm::dvec3& to_light, const ClipmapRequest& request) {
     PageGrid grid{.space = lightSpace(to_light), .page = request.page, .gutter = gutterOf(request)};
-    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+    glm::dvec3 min(std::numeric_limits<double>::infinity()), max(-min);
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 corner{(i & 1 ? bounds.max : bounds.min).x, (i & 2 ? bounds.max : bounds.min).y,
                                 (i & 4 ? bounds.max : bounds.min).z};
-        least = glm::min(least, grid.space.from(corner));
-        most = glm::max(most, grid.space.from(corner));
+        min = glm::min(min, grid.space.from(corner));
+        max = glm::max(max, grid.space.from(corner));
     }
     // Rounds outwards to sixteenths of a power of two, with a margin for rounding errors. So a small
     // movement of a caster does not move other pages.
-    const glm::dvec3 extent = most - least;
+    const glm::dvec3 extent = max - min;
     const double largest = std::max({extent.x, extent.y, extent.z, 1e-9}), room = 1e-4 * largest;
     const double step = std::exp2(std::ceil(std::log2(largest))) / 16;
-    least = glm::floor((least - room) / step) * step;
-    most = glm::ceil((most + room) / step) * step;
-    grid.near = most.z;
-    grid.far = least.z;
-    grid.corner = glm::dvec2(least);
-    grid.side = std::max(most.x - least.x, most.y - least.y);
+    min = glm::floor((min - room) / step) * step;
+    max = glm::ceil((max + room) / step) * step;
+    grid.near = max.z;
+    grid.far = min.z;
+    grid.corner = glm::dvec2(min);
+    grid.side = std::max(max.x - min.x, max.y - min.y);
     return grid;
 }
 

@@ -56,13 +56,13 @@ glm::uvec2 AtlasShape::cornerOf(std::uint32_t at) const {
 
 ClipmapAtlas::ClipmapAtlas(Device& device, const AtlasShape& shape)
     : device_(device), shape_(shape), cache_(shape.pages) {
-    const std::uint32_t most = device.limits().maxImageDimension2D;
-    if (shape.size().x > most)
+    const std::uint32_t max = device.limits().maxImageDimension2D;
+    if (shape.size().x > max)
         throw std::runtime_error(
             fmt::format("--clipmap-pages {}: only {} pages of {}x{} texels (with filter borders) fit in the "
                         "largest image of {}, {}x{}",
-                        shape.pages, (most / shape.slot) * (most / shape.slot), shape.slot, shape.slot,
-                        device.info().name, most, most));
+                        shape.pages, (max / shape.slot) * (max / shape.slot), shape.slot, shape.slot,
+                        device.info().name, max, max));
     image_ = GpuImage(device, {.name = "clipmap atlas",
                                .format = depthFormat,
                                .width = shape.size().x,

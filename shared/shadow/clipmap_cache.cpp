@@ -43,12 +43,12 @@ std::vector<Siblings> siblingsOf(const Clipmap& clipmap, std::size_t level, cons
 }
 
 // Pages per level, reduced to `most`; excludes the whole scene's page.
-std::vector<Level> fitting(const Clipmap& clipmap, std::vector<Level> levels, std::size_t most) {
+std::vector<Level> fitting(const Clipmap& clipmap, std::vector<Level> levels, std::size_t max) {
     std::size_t count = 0;
     for (const Level& level : levels) count += level.size();
-    for (std::size_t i = 0; i < levels.size() && count > most; ++i)
+    for (std::size_t i = 0; i < levels.size() && count > max; ++i)
         for (const Siblings& group : siblingsOf(clipmap, i, levels[i])) {
-            if (count <= most) break;
+            if (count <= max) break;
             for (const auto& page : group.pages) levels[i].erase(page);
             count -= group.pages.size();
             if (i + 1 < levels.size()) count += levels[i + 1].insert({group.parent.y, group.parent.x}).second;

@@ -175,16 +175,15 @@ LocalAtlas layOutAtlas(std::span<const Light> lights, const Bounds& bounds, Worl
         }
     }
     if (atlas.tiles.empty()) return atlas;
-    const int least =
-        leastTile * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(atlas.tiles.size()))));
+    const int min = minTile * static_cast<int>(std::ceil(std::sqrt(static_cast<double>(atlas.tiles.size()))));
     atlas.side = static_cast<int>(std::max(std::bit_floor(static_cast<unsigned>(request.size)),
-                                           std::bit_ceil(static_cast<unsigned>(least))));
+                                           std::bit_ceil(static_cast<unsigned>(min))));
     std::int64_t texels = 0;
     for (AtlasTile& tile : atlas.tiles) {
         const Light& light = lights[tile.light];
-        const int largest = std::max(atlas.side / (shadowTiles(light) == 1 ? 2 : 4), leastTile);
+        const int largest = std::max(atlas.side / (shadowTiles(light) == 1 ? 2 : 4), minTile);
         const double wanted = largest * influenceOf(atlas.lights[tile.light], view);
-        tile.size = std::max(static_cast<int>(std::bit_floor(static_cast<unsigned>(wanted))), leastTile);
+        tile.size = std::max(static_cast<int>(std::bit_floor(static_cast<unsigned>(wanted))), minTile);
         texels += std::int64_t{tile.size} * tile.size;
     }
     while (texels > std::int64_t{atlas.side} * atlas.side) {

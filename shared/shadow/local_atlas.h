@@ -17,7 +17,7 @@
 namespace diptych {
 
 // Side of the smallest tile, texels. At least half of it remains inside the filter's border.
-inline constexpr int leastTile = 32;
+inline constexpr int minTile = 32;
 
 // User settings.
 struct AtlasRequest {

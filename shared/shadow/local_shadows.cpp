@@ -52,11 +52,11 @@ std::vector<std::string> notesOf(const LocalAtlas& atlas, std::size_t draws, std
     if (!casting.lights.empty()) {
         std::string drawn = "no tile is drawn";
         if (!atlas.tiles.empty()) {
-            const auto [least, most] = std::ranges::minmax_element(atlas.tiles, {}, &AtlasTile::size);
+            const auto [min, max] = std::ranges::minmax_element(atlas.tiles, {}, &AtlasTile::size);
             drawn = fmt::format("{} of {}{} texels, {}, in an atlas of {}x{}, {:.1f} MiB",
                                 counted(atlas.tiles.size(), "tile"),
-                                least->size < most->size ? fmt::format("{} to ", least->size) : "",
-                                most->size, counted(draws, "draw"), atlas.side, atlas.side,
+                                min->size < max->size ? fmt::format("{} to ", min->size) : "", max->size,
+                                counted(draws, "draw"), atlas.side, atlas.side,
                                 static_cast<double>(atlas.side) * atlas.side * sizeof(float) / (1 << 20));
         }
         notes.push_back(

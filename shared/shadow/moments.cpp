@@ -32,11 +32,11 @@ namespace {
 // Peters and Klein 2015 use 3e-5 for formats more precise than 16 bits. 16-bit floats round moments 64
 // times as coarsely as 16-bit integers.
 MomentFormat fourMomentFormat(const MomentSupport& device) {
-    constexpr double least = 3e-5, of16Bits = 6e-5;
+    constexpr double min = 3e-5, of16Bits = 6e-5;
     if (device.shares16) return {VK_FORMAT_R16G16B16A16_UNORM, false, of16Bits, {}};
     const std::string because = "the device cannot store and filter 16-bit UNORM";
     if (device.filters32)
-        return {VK_FORMAT_R32G32B32A32_SFLOAT, false, least, "moments in 32-bit floats: " + because};
+        return {VK_FORMAT_R32G32B32A32_SFLOAT, false, min, "moments in 32-bit floats: " + because};
     return {VK_FORMAT_R16G16B16A16_SFLOAT, true, 64 * of16Bits,
             "moments in 16-bit floats with 64 times the bias: " + because + " or filter 32-bit floats"};
 }

@@ -45,10 +45,9 @@ std::vector<glm::dvec2> hullOf(std::array<glm::dvec2, 8> points) {
     });
     std::vector<glm::dvec2> hull;
     const auto chain = [&](const auto& range) {
-        const std::size_t least = hull.size() + 2;
+        const std::size_t min = hull.size() + 2;
         for (const glm::dvec2& point : range) {
-            while (hull.size() >= least &&
-                   cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
+            while (hull.size() >= min && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
                 hull.pop_back();
             hull.push_back(point);
         }
@@ -115,13 +114,12 @@ ReceiverMask::ReceiverMask(const Cascades& cascades, const CascadeArea& area, co
         if (depth - reach > depths.far || depth + reach < depths.near) continue;
         const double atX = glm::dot(x, box.centre) + origin.x, byX = box.reach(x);
         const double atY = glm::dot(y, box.centre) + origin.y, byY = box.reach(y);
-        const double least =
-            compares ? glm::dot(z, box.centre) + origin.z - box.reach(z) - deeper : -unbounded;
+        const double min = compares ? glm::dot(z, box.centre) + origin.z - box.reach(z) - deeper : -unbounded;
         const CellRange columns = cellsOf(atX - byX, atX + byX), rows = cellsOf(atY - byY, atY + byY);
         for (int row = rows.begin; row < rows.end; ++row)
             for (int column = columns.begin; column < columns.end; ++column) {
                 const auto cell = static_cast<std::size_t>(row * cells + column);
-                if (seenThere[cell]) deepest_[cell] = std::min(deepest_[cell], least);
+                if (seenThere[cell]) deepest_[cell] = std::min(deepest_[cell], min);
             }
     }
 }

@@ -280,8 +280,8 @@ void SunShadow::setFilter(gpu::ShadowLight& light, const Cascades& cascades, dou
                             "cascade); the sun's disc can cause {:.3g} m here",
                             request_.kernel, drawn, penumbra));
     }
-    const double least = settings_.shadow_kernel, most = request_.kernel;
-    reach_ = reachOf(cascades, [=](double texel) { return std::clamp(penumbra / texel, least, most); });
+    const double min = settings_.shadow_kernel, max = request_.kernel;
+    reach_ = reachOf(cascades, [=](double texel) { return std::clamp(penumbra / texel, min, max); });
 }
 
 std::vector<glm::vec4> SunShadow::clipmapTexels() const {

@@ -42,11 +42,11 @@ std::string_view nearestWord(std::string_view word, std::span<const std::string>
     if (word.size() > longest) return {};
     const std::string typed = lower(word);
     std::string_view nearest;
-    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+    std::size_t min = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
         const std::size_t apart = lettersApart(typed, lower(candidate));
-        if (apart >= least) continue;
-        least = apart;
+        if (apart >= min) continue;
+        min = apart;
         nearest = candidate;
     }
     return nearest;

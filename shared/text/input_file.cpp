@@ -68,34 +68,34 @@ bool isLfsPointer(int descriptor) {
 
 }  // namespace
 
-InputFile::InputFile(const fs::path& file, std::uint64_t most_bytes)
+InputFile::InputFile(const fs::path& file, std::uint64_t max_bytes)
     : descriptor_(::open(file.c_str(), reading)) {
     if (descriptor_ < 0) failToOpen(errno);
-    check(most_bytes);
+    check(max_bytes);
 }
 
-InputFile::InputFile(const fs::path& root, const std::string& name, std::uint64_t most_bytes)
+InputFile::InputFile(const fs::path& root, const std::string& name, std::uint64_t max_bytes)
     : descriptor_(openBelow(root, name)) {
-    check(most_bytes);
+    check(max_bytes);
 }
 
 InputFile::~InputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void InputFile::check(std::uint64_t most_bytes) {
+void InputFile::check(std::uint64_t max_bytes) {
     struct stat status {};
     const bool known = ::fstat(descriptor_, &status) == 0;
     const int error = errno;
     size_ = known ? static_cast<std::uint64_t>(status.st_size) : 0;
     const bool pointer = known && S_ISREG(status.st_mode) && isLfsPointer(descriptor_);
-    if (known && S_ISREG(status.st_mode) && size_ <= most_bytes && !pointer) return;
+    if (known && S_ISREG(status.st_mode) && size_ <= max_bytes && !pointer) return;
     ::close(std::exchange(descriptor_, -1));  // the destructor does not run if the constructor throws
     if (!known) failToOpen(error);
     if (S_ISDIR(status.st_mode)) fail("is a folder");
     if (!S_ISREG(status.st_mode)) fail("is not a regular file");
     if (pointer) fail("is a Git LFS pointer, not the file; fetch it by git lfs pull");
-    fail(fmt::format("has {} bytes; the limit is {}", size_, most_bytes));
+    fail(fmt::format("has {} bytes; the limit is {}", size_, max_bytes));
 }
 
 void InputFile::read(std::span<std::byte> bytes) {
@@ -108,13 +108,13 @@ void InputFile::read(std::span<std::byte> bytes) {
     }
 }
 
-std::string textIn(const fs::path& path, std::uint64_t most_bytes) {
-    InputFile file(path, most_bytes);
+std::string textIn(const fs::path& path, std::uint64_t max_bytes) {
+    InputFile file(path, max_bytes);
     return wholeOf(file);
 }
 
-std::string textBelow(const fs::path& root, const std::string& name, std::uint64_t most_bytes) {
-    InputFile file(root, name, most_bytes);
+std::string textBelow(const fs::path& root, const std::string& name, std::uint64_t max_bytes) {
+    InputFile file(root, name, max_bytes);
     return wholeOf(file);
 }
 

@@ -17,11 +17,11 @@ namespace diptych {
 class InputFile {
 public:
     // Follows links, because users may name a file by one.
-    explicit InputFile(const std::filesystem::path& file, std::uint64_t most_bytes = ~std::uint64_t{0});
+    explicit InputFile(const std::filesystem::path& file, std::uint64_t max_bytes = ~std::uint64_t{0});
     // A name from one of our own files, such as "Box/lit.png", below a folder that the user named. No part
     // of it may be a link or "..".
     InputFile(const std::filesystem::path& root, const std::string& name,
-              std::uint64_t most_bytes = ~std::uint64_t{0});
+              std::uint64_t max_bytes = ~std::uint64_t{0});
     ~InputFile();
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;
@@ -32,14 +32,14 @@ public:
     int descriptor() const { return descriptor_; }
 
 private:
-    void check(std::uint64_t most_bytes);
+    void check(std::uint64_t max_bytes);
 
     int descriptor_ = -1;
     std::uint64_t size_ = 0;
 };
 
 // The whole file. Errors as for InputFile.
-std::string textIn(const std::filesystem::path& file, std::uint64_t most_bytes);
-std::string textBelow(const std::filesystem::path& root, const std::string& name, std::uint64_t most_bytes);
+std::string textIn(const std::filesystem::path& file, std::uint64_t max_bytes);
+std::string textBelow(const std::filesystem::path& root, const std::string& name, std::uint64_t max_bytes);
 
 }  // namespace diptych

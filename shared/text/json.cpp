@@ -19,8 +19,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-void checkCount(std::size_t count, std::size_t most, const char* what) {
-    if (count > most) fail(fmt::format("has {} {}; the limit is {}", count, what, most));
+void checkCount(std::size_t count, std::size_t max, const char* what) {
+    if (count > max) fail(fmt::format("has {} {}; the limit is {}", count, what, max));
 }
 
 void check(const JsonShape& shape, const JsonLimits& limits) {

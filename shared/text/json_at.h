@@ -72,14 +72,14 @@ public:
     double numberOr(const char* key, double fallback) const { return has(key) ? at(key).number() : fallback; }
     // An integer from `least` to `most`.
     template <class Whole>
-    Whole whole(Whole least, Whole most) const {
+    Whole whole(Whole min, Whole max) const {
         const bool fits = json_->is_number_unsigned()
-                              ? std::cmp_greater_equal(json_->template get<std::uint64_t>(), least) &&
-                                    std::cmp_less_equal(json_->template get<std::uint64_t>(), most)
+                              ? std::cmp_greater_equal(json_->template get<std::uint64_t>(), min) &&
+                                    std::cmp_less_equal(json_->template get<std::uint64_t>(), max)
                               : json_->is_number_integer() &&
-                                    std::cmp_greater_equal(json_->template get<std::int64_t>(), least) &&
-                                    std::cmp_less_equal(json_->template get<std::int64_t>(), most);
-        if (!fits) fail(fmt::format("is not a whole number from {} to {}", least, most));
+                                    std::cmp_greater_equal(json_->template get<std::int64_t>(), min) &&
+                                    std::cmp_less_equal(json_->template get<std::int64_t>(), max);
+        if (!fits) fail(fmt::format("is not a whole number from {} to {}", min, max));
         return json_->template get<Whole>();
     }
     // An index into `count` elements.

@@ -45,11 +45,11 @@ bool isControl(char32_t code) {
         ranges, [&](const auto& range) { return range.first <= code && code <= range.second; });
 }
 
-std::string oneLine(std::string_view text, std::size_t most) {
-    const bool cut = text.size() > most;
+std::string oneLine(std::string_view text, std::size_t max) {
+    const bool cut = text.size() > max;
     if (cut) {
-        while (most > 0 && continues(text[most])) --most;
-        text = text.substr(0, most);
+        while (max > 0 && continues(text[max])) --max;
+        text = text.substr(0, max);
     }
     std::string line;
     line.reserve(text.size());

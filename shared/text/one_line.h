@@ -23,7 +23,7 @@ bool isControl(char32_t code);
 
 // For one line of a message. Controls and invalid UTF-8 become '?'. Text longer than `most` bytes is cut
 // between characters and ends in "...".
-std::string oneLine(std::string_view text, std::size_t most = 200);
+std::string oneLine(std::string_view text, std::size_t max = 200);
 
 // A whole message, with line breaks replaced by spaces. If it is too long, the middle becomes "..."; the
 // beginning (what, where) and the end (what to do) remain.

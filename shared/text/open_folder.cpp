@@ -260,7 +260,7 @@ std::vector<std::string> OpenFolder::names() const {
     return namesIn(file_);
 }
 
-std::string OpenFolder::read(const fs::path& name, std::size_t most) const {
+std::string OpenFolder::read(const fs::path& name, std::size_t max) const {
     const auto fail = [&](const std::string& why) {
         throw std::runtime_error(fmt::format("{}: {}", (path_ / name).string(), why));
     };
@@ -273,11 +273,11 @@ std::string OpenFolder::read(const fs::path& name, std::size_t most) const {
     }
     std::string text;
     const bool fits =
-        ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size <= static_cast<off_t>(most);
+        ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size <= static_cast<off_t>(max);
     if (fits) text.resize(static_cast<std::size_t>(status.st_size));
     const bool whole = fits && std::fread(text.data(), 1, text.size(), stream) == text.size();
     std::fclose(stream);
-    if (!fits) fail(fmt::format("is not a regular file of at most {} bytes", most));
+    if (!fits) fail(fmt::format("is not a regular file of at most {} bytes", max));
     if (!whole) fail("cannot be read completely");
     return text;
 }

@@ -58,7 +58,7 @@ public:
     bool has(const std::filesystem::path& name, const struct stat& seen) const;
     std::vector<std::string> names() const;
     // Reads a regular file. Throws std::runtime_error if it is unreadable or larger than `most` bytes.
-    std::string read(const std::filesystem::path& name, std::size_t most) const;
+    std::string read(const std::filesystem::path& name, std::size_t max) const;
     // Opens a file; a link fails. Returns a descriptor; -1 with errno set on failure.
     int open(const std::filesystem::path& name, int flags, mode_t mode = 0) const;
     // Creates a file for writing; nullptr, with errno set, also if the name exists.

@@ -53,9 +53,9 @@ FragmentLists::FragmentLists(Device& device, const DrawList& draws, const Settin
     layers_ = static_cast<std::uint32_t>(settings.transparency_layers);
     width_ = static_cast<std::uint32_t>(settings.size.width);
     const auto height = static_cast<std::uint32_t>(settings.size.height);
-    const std::uint64_t most = device.limits().maxStorageBufferRange,
+    const std::uint64_t max = device.limits().maxStorageBufferRange,
                         row = std::max(keyBytes(width_, layers_), fragmentBytes(width_, layers_));
-    rows_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(most / row, 1, height));
+    rows_ = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(max / row, 1, height));
     keys_ = GpuBuffer(device, "fragment keys", keyBytes(pixels(), layers_), storage);
     fragments_ = GpuBuffer(device, "fragments", fragmentBytes(pixels(), layers_), storage);
 }

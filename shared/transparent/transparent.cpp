@@ -161,12 +161,12 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
 }
 
 void checkLightsOfBlended(const FrameInputs& inputs) {
-    const gpu::uint most = inputs.entries_per_draw;
-    if (inputs.draws.seenThrough().empty() || inputs.longest_list <= most) return;
+    const gpu::uint max = inputs.entries_per_draw;
+    if (inputs.draws.seenThrough().empty() || inputs.longest_list <= max) return;
     throw std::runtime_error(fmt::format(
         "blended surfaces and glass: a light list has {} entries, but a draw on {} reads up to {}; use "
         "--assign clustered or tiled, --light-cutoff, or --transparency off",
-        inputs.longest_list, inputs.device.info().name, most));
+        inputs.longest_list, inputs.device.info().name, max));
 }
 
 void addTransparent(PassList& passes, const FrameInputs& inputs, ImageRef depth, ImageRef lit) {

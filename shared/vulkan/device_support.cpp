@@ -88,7 +88,7 @@ DeviceSupport::DeviceSupport(VkPhysicalDevice device) : device_(device) {
     if (known) subgroups_.pNext = &buffers;
     vkGetPhysicalDeviceProperties2(device, &all);
     subgroups_.pNext = nullptr;
-    most_bytes_of_buffer_ = buffers.maxBufferSize;
+    max_bytes_of_buffer_ = buffers.maxBufferSize;
     driver_ = fmt::format("{} {}", driver.driverName, driver.driverInfo);
     vkGetPhysicalDeviceMemoryProperties(device, &memory_);
 
@@ -152,10 +152,10 @@ void DeviceSupport::askFormats() {
 }
 
 void DeviceSupport::limitTo(const VkPhysicalDeviceLimits& other) {
-    for (std::uint32_t VkPhysicalDeviceLimits::*most :
+    for (std::uint32_t VkPhysicalDeviceLimits::*max :
          {&VkPhysicalDeviceLimits::maxImageDimension2D, &VkPhysicalDeviceLimits::maxTexelBufferElements,
           &VkPhysicalDeviceLimits::maxStorageBufferRange})
-        properties_.limits.*most = std::min(properties_.limits.*most, other.*most);
+        properties_.limits.*max = std::min(properties_.limits.*max, other.*max);
 }
 
 bool DeviceSupport::hasExtension(std::string_view name) const {
@@ -197,7 +197,7 @@ VkImageFormatProperties DeviceSupport::images(VkFormat format, VkImageUsageFlags
     return found == VK_SUCCESS ? properties : VkImageFormatProperties{};
 }
 
-std::uint32_t DeviceSupport::mostPixels() const {
+std::uint32_t DeviceSupport::maxPixels() const {
     return std::min(
         {limits().maxImageDimension2D, limits().maxFramebufferWidth, limits().maxFramebufferHeight});
 }

@@ -156,7 +156,7 @@ public:
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     // Reduces the limits that choices depend on to those of another device.
     void limitTo(const VkPhysicalDeviceLimits& other);
-    VkDeviceSize mostBytesOfBuffer() const { return most_bytes_of_buffer_; }
+    VkDeviceSize maxBytesOfBuffer() const { return max_bytes_of_buffer_; }
     const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
     // Name and version of the driver.
     const std::string& driver() const { return driver_; }
@@ -192,7 +192,7 @@ public:
         return images(format, usage).sampleCounts;
     }
     // Largest side of an image that is drawn to.
-    std::uint32_t mostPixels() const;
+    std::uint32_t maxPixels() const;
 
     // Free bytes of each heap; empty if the device does not report it.
     std::vector<VkDeviceSize> bytesLeft() const;
@@ -205,7 +205,7 @@ private:
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceSubgroupProperties subgroups_{};
     VkPhysicalDeviceMemoryProperties memory_{};
-    VkDeviceSize most_bytes_of_buffer_ = 0;
+    VkDeviceSize max_bytes_of_buffer_ = 0;
     std::string driver_;
     std::optional<std::uint32_t> graphics_family_;
     std::uint32_t timestamp_bits_ = 0;

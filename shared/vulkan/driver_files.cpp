@@ -28,7 +28,7 @@ std::optional<std::string> driverFilesFault() {
 }
 
 void avoidCacheOnFullDisk() {
-    constexpr std::uintmax_t least = 4 << 20;
+    constexpr std::uintmax_t min = 4 << 20;
     std::filesystem::path folder;
     // Same search order as Mesa (disk_cache_os.c).
     for (const auto& [variable, below] :
@@ -39,7 +39,7 @@ void avoidCacheOnFullDisk() {
     while (folder.has_relative_path() && !std::filesystem::exists(folder, failed))
         folder = folder.parent_path();
     const std::filesystem::space_info room = std::filesystem::space(folder, failed);
-    if (!failed && room.available < least) ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    if (!failed && room.available < min) ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
 }  // namespace diptych

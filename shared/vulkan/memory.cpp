@@ -140,14 +140,14 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
         static_cast<double>(needs.size) / 1048576.0, static_cast<double>(allocated()) / 1048576.0, budget));
 }
 
-std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize most, VkDeviceSize least,
+std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize max, VkDeviceSize min,
                                             bool image) {
     // Shaders may use the address of any buffer.
     const VkMemoryAllocateFlagsInfo flags{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
                                           .pNext = nullptr,
                                           .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT,
                                           .deviceMask = 0};
-    for (VkDeviceSize bytes = most;; bytes = least) {
+    for (VkDeviceSize bytes = max;; bytes = min) {
         const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                         .pNext = image ? nullptr : &flags,
                                         .allocationSize = bytes,
@@ -155,7 +155,7 @@ std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize mos
         VkDeviceMemory memory = VK_NULL_HANDLE;
         const VkResult result = calls_.allocate(info, &memory);
         if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-            if (bytes == least) return std::nullopt;
+            if (bytes == min) return std::nullopt;
             continue;
         }
         checkResult(result, "vkAllocateMemory");
@@ -164,7 +164,7 @@ std::optional<std::size_t> Memory::addBlock(std::uint32_t type, VkDeviceSize mos
         block->size = bytes;
         block->type = type;
         block->image = image;
-        block->shared = bytes > least;
+        block->shared = bytes > min;
         block->free[0] = bytes;
         if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0)
             checkResult(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &block->mapped), "vkMapMemory");

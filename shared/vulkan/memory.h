@@ -80,8 +80,7 @@ private:
     void release(std::size_t block, VkDeviceSize offset, VkDeviceSize size);
     VkDeviceSize sharedBytes(std::uint32_t type, bool image) const;
     // Index of a new block of `most` bytes, or else of `least`; nothing if the type's heap is full.
-    std::optional<std::size_t> addBlock(std::uint32_t type, VkDeviceSize most, VkDeviceSize least,
-                                        bool image);
+    std::optional<std::size_t> addBlock(std::uint32_t type, VkDeviceSize max, VkDeviceSize min, bool image);
     std::uint32_t heapOf(std::uint32_t type) const { return properties_.memoryTypes[type].heapIndex; }
 
     VkDevice device_;

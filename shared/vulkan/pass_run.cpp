@@ -226,15 +226,15 @@ void PassList::submit(const std::vector<Piece>& pieces, std::vector<double>& ms)
     std::vector<std::size_t> ended;  // span that ends at each time stamp after the first
     OwnedQueryPool pool;
     const bool stamped = device_.profile().time_stamps;
-    const auto most = static_cast<std::uint32_t>(pieces.size() + 1);
-    if (stamped) pool = makeQueryPool(device_.handle(), VK_QUERY_TYPE_TIMESTAMP, most);
+    const auto max = static_cast<std::uint32_t>(pieces.size() + 1);
+    if (stamped) pool = makeQueryPool(device_.handle(), VK_QUERY_TYPE_TIMESTAMP, max);
     const auto stamp = [&](VkCommandBuffer commands, std::uint32_t query) {
         if (stamped) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
     };
     const double elapsed = device_.submit(
         [&](VkCommandBuffer commands) {
             const auto start = std::chrono::steady_clock::now();
-            if (stamped) vkCmdResetQueryPool(commands, pool, 0, most);
+            if (stamped) vkCmdResetQueryPool(commands, pool, 0, max);
             stamp(commands, 0);
             for (std::size_t i = 0; i < pieces.size(); ++i) {
                 runPiece(pieces[i], commands);

@@ -100,21 +100,21 @@ std::vector<DeviceProperty> propertiesOf(const DeviceSupport& device) {
     const auto feature = [&](DeviceFeature name, Need how, const char* what) {
         list.push_back({what, device.has(name), how == required, ""});
     };
-    const auto limit = [&](std::uint32_t there, std::uint32_t least, std::uint32_t needed, const char* what) {
-        if (needed > least) need(what, there >= needed, fmt::format("{}, {} needed", there, needed));
+    const auto limit = [&](std::uint32_t there, std::uint32_t min, std::uint32_t needed, const char* what) {
+        if (needed > min) need(what, there >= needed, fmt::format("{}, {} needed", there, needed));
     };
     using namespace binding_kind;
 #define DIPTYCH_FEATURE_PROPERTY(version, name, how, what) feature(DeviceFeature::name, how, what);
     DEVICE_FEATURES(DIPTYCH_FEATURE_PROPERTY)
 #undef DIPTYCH_FEATURE_PROPERTY
-#define DIPTYCH_LIMIT_PROPERTY(name, least, needed, what) limit(l.name, least, needed, what);
+#define DIPTYCH_LIMIT_PROPERTY(name, min, needed, what) limit(l.name, min, needed, what);
     DEVICE_LIMITS(DIPTYCH_LIMIT_PROPERTY)
 #undef DIPTYCH_LIMIT_PROPERTY
     need("subgroup arithmetic in compute shaders",
          device.hasSubgroups(VK_SHADER_STAGE_COMPUTE_BIT, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT));
     need("32-bit depth", device.can(VK_FORMAT_D32_SFLOAT, format_use::depth | format_use::sampled));
     noteFormats(list, device);
-    note("image size", true, fmt::format("up to {} x {}", device.mostPixels(), device.mostPixels()));
+    note("image size", true, fmt::format("up to {} x {}", device.maxPixels(), device.maxPixels()));
     note("storage buffers", true, "up to " + range(l.maxStorageBufferRange));
     note("uniform buffers", true, fmt::format("up to {} KiB", l.maxUniformBufferRange >> 10));
     note("texel buffers", true, fmt::format("up to {} texels", l.maxTexelBufferElements));

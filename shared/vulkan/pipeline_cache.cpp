@@ -55,7 +55,7 @@ static_assert(std::has_unique_object_representations_v<CacheFileHead>);  // no p
                                                                          // initialized
 
 // Larger than any driver's cache for one device.
-constexpr std::uint64_t mostCacheBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t maxCacheBytes = std::uint64_t{1} << 30;
 
 // Size without pipelines: the header that Vulkan requires (VkPipelineCacheHeaderVersionOne).
 constexpr std::size_t emptyCacheBytes = sizeof(VkPipelineCacheHeaderVersionOne);
@@ -75,7 +75,7 @@ std::vector<std::byte> readPipelineCache(const fs::path& file, const PipelineCac
     std::FILE* const stream = opened.stream.get();
     CacheFileHead head;
     if (!stream || std::fread(&head, sizeof head, 1, stream) != 1) return {};
-    if (head.magic != CacheFileHead{}.magic || head.key != key || head.bytes > mostCacheBytes ||
+    if (head.magic != CacheFileHead{}.magic || head.key != key || head.bytes > maxCacheBytes ||
         opened.bytes != sizeof head + head.bytes)
         return {};
     std::vector<std::byte> data(head.bytes);

@@ -395,7 +395,7 @@ std::uint64_t Pipelines::bytes(bool inUse) const {
 
 void Pipelines::releaseUnused() {
     std::uint64_t unused = bytes(false);
-    while (unused > mostUnused) {
+    while (unused > maxUnused) {
         auto oldest = pipelines_.end();
         for (auto entry = pipelines_.begin(); entry != pipelines_.end(); ++entry)
             if (!isUsed(entry->second) &&

@@ -102,10 +102,10 @@ private:
 // planned: pipelines are checked and counted, and created only if they are used.
 enum class Creation : std::uint8_t { at_once, planned };
 
-// Keeps pipelines that nothing uses any more, the latest up to `mostUnused` bytes of host memory.
+// Keeps pipelines that nothing uses any more, the latest up to `maxUnused` bytes of host memory.
 class Pipelines {
 public:
-    static constexpr std::uint64_t mostUnused = std::uint64_t{128} << 20;
+    static constexpr std::uint64_t maxUnused = std::uint64_t{128} << 20;
 
     // `layout` must outlive the pipelines. Without `choose` there is no vertex input.
     Pipelines(Device& device, VkPipelineLayout layout, ChooseParts choose = plainParts,

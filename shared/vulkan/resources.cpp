@@ -32,20 +32,20 @@ void checkImage(const Device& device, const GpuImageInfo& info) {
     if (info.samples > VK_SAMPLE_COUNT_1_BIT) needed |= multisampled;
     if (const auto lacks = device.support().lacks(info.format, needed)) refuse(device, info.name, *lacks);
     const VkImageFormatProperties can = device.support().images(info.format, info.usage);
-    const std::uint32_t most = attached != 0 ? device.support().mostPixels() : ~0u;
+    const std::uint32_t max = attached != 0 ? device.support().maxPixels() : ~0u;
     if ((can.sampleCounts & info.samples) == 0)
         refuse(device, info.name,
                fmt::format("it does not support {} for this use with {} samples per pixel; use --msaa 1 and "
                            "--lighting fragment, or choose another device with --device",
                            nameOf(info.format), static_cast<int>(info.samples)));
-    if (info.width > std::min(can.maxExtent.width, most) ||
-        info.height > std::min(can.maxExtent.height, most) || info.layers > can.maxArrayLayers ||
+    if (info.width > std::min(can.maxExtent.width, max) ||
+        info.height > std::min(can.maxExtent.height, max) || info.layers > can.maxArrayLayers ||
         info.levels > can.maxMipLevels)
         refuse(device, info.name,
                fmt::format("{} x {} texels and {} layers exceed the limit of {}, {} x {} and {}; use a "
                            "smaller --size or --shadow-size, or choose another device with --device",
                            info.width, info.height, info.layers, nameOf(info.format),
-                           std::min(can.maxExtent.width, most), std::min(can.maxExtent.height, most),
+                           std::min(can.maxExtent.width, max), std::min(can.maxExtent.height, max),
                            can.maxArrayLayers));
 }
 
@@ -114,10 +114,10 @@ GpuBuffer::GpuBuffer(Device& device, const std::string& name, VkDeviceSize size,
         throw std::runtime_error(
             fmt::format("the scene's {} need {} MiB; {} reads up to {} MiB of one buffer", name, size_ >> 20,
                         device.info().name, device.limits().maxStorageBufferRange >> 20));
-    if (size_ > device.support().mostBytesOfBuffer())
+    if (size_ > device.support().maxBytesOfBuffer())
         throw std::runtime_error(fmt::format("the scene's {} need {} MiB; {} has buffers of up to {} MiB",
                                              name, size_ >> 20, device.info().name,
-                                             device.support().mostBytesOfBuffer() >> 20));
+                                             device.support().maxBytesOfBuffer() >> 20));
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                   .pNext = nullptr,
                                   .flags = 0,

@@ -141,8 +141,8 @@ private:
 // As levelRadiance() and specularLevel() of shaders/lib/environment/environment.glsl.
 inline glm::dvec3 filteredRadiance(const EnvironmentMaps& maps, double alpha, const glm::dvec3& direction) {
     const double first = std::log2(double{gpu::ENVIRONMENT_FIRST_ALPHA}),
-                 least = 2 * std::log2(double{gpu::MIN_PERCEPTUAL_ROUGHNESS}), octaves = std::log2(alpha);
-    const double level = octaves < first ? (octaves - least) / (first - least)
+                 min = 2 * std::log2(double{gpu::MIN_PERCEPTUAL_ROUGHNESS}), octaves = std::log2(alpha);
+    const double level = octaves < first ? (octaves - min) / (first - min)
                                          : 1 + double{gpu::ENVIRONMENT_LEVELS_AN_OCTAVE} * (octaves - first);
     const double lower = std::min(std::floor(level), static_cast<double>(maps.levels.size() - 2));
     const auto index = static_cast<std::size_t>(lower);
@@ -157,10 +157,10 @@ inline double tabledAlbedo(double alpha, double n_dot_v) {
     constexpr int width = gpu::ALBEDO_TABLE_WIDTH, height = gpu::ALBEDO_TABLE_HEIGHT;
     const std::vector<glm::vec2>& table = directionalAlbedoTable();
     const double k = 2 * alpha, blend = double{gpu::ALBEDO_BLEND},
-                 least = std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
+                 min = std::sqrt(double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
     const double along =
         blend * std::sqrt(n_dot_v * (1 + k) / (n_dot_v + k)) + (1 - blend) * std::sqrt(n_dot_v);
-    const double down = (std::sqrt(std::sqrt(alpha)) - least) / (1 - least);
+    const double down = (std::sqrt(std::sqrt(alpha)) - min) / (1 - min);
     return cubicAt(down * (height - 1), height, [&](int y) {
         return cubicAt(along * (width - 1), width, [&](int x) {
             const glm::vec2 t = table[static_cast<std::size_t>(y * width + x)];
@@ -277,7 +277,7 @@ struct IrradianceErrors {
 inline IrradianceErrors irradianceErrors(const AllDirections& sky, const EnvironmentMaps& maps,
                                          std::size_t count) {
     using glm::dvec3;
-    const double window = leastWindow(maps.harmonics);
+    const double window = minWindow(maps.harmonics);
     const auto raw = irradiancePolynomial(maps.harmonics),
                damped = irradiancePolynomial(maps.harmonics, window);
     std::vector<std::array<dvec3, 4>> values(count);

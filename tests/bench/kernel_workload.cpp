@@ -11,7 +11,7 @@ namespace diptych::kernels {
 
 KernelWorkload makeWorkload(const Size& size, std::uint32_t lights, int listCapacity, std::uint32_t seed) {
     if (size.width % KernelWorkload::tile != 0 || size.height % KernelWorkload::tile != 0 ||
-        listCapacity % 4 != 0 || lights > mostKernelLights ||
+        listCapacity % 4 != 0 || lights > maxKernelLights ||
         static_cast<std::uint32_t>(listCapacity) > lights)
         throw std::logic_error(
             "makeWorkload: whole tiles, whole groups of four, lists no longer than lights");

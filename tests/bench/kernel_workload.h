@@ -15,7 +15,7 @@ namespace diptych::kernels {
 // shaders/lights.glsl.
 struct KernelWorkload {
     Size size;                           // multiple of the tile size
-    std::vector<gpu::Light> lights;      // at most mostKernelLights
+    std::vector<gpu::Light> lights;      // at most maxKernelLights
     std::vector<std::uint32_t> indices;  // list_capacity per tile, row by row
     int list_capacity = 0;               // lights per list, a multiple of 4
 
@@ -24,8 +24,8 @@ struct KernelWorkload {
     static constexpr int tile = 16;
 };
 
-inline constexpr std::uint32_t mostKernelLights = 512;  // 16 KiB: Vulkan's minimum for
-                                                        // maxUniformBufferRange
+inline constexpr std::uint32_t maxKernelLights = 512;  // 16 KiB: Vulkan's minimum for
+                                                       // maxUniformBufferRange
 
 // Deterministic for a seed on every machine. `size`: multiple of the tile size. `listCapacity`: multiple
 // of 4, at most `lights`. Throws std::logic_error otherwise.

@@ -83,7 +83,7 @@ int main(int count, char** arguments) try {
     Device device(DeviceOptions{});
     const int threads =
         static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    const KernelWorkload workload = makeWorkload(size, mostKernelLights, long_list, 1);
+    const KernelWorkload workload = makeWorkload(size, maxKernelLights, long_list, 1);
 
     std::vector<TimedKernel> timed;
     std::vector<std::string> notes;
@@ -110,7 +110,7 @@ int main(int count, char** arguments) try {
     fmt::print(
         "{}, one listed point light at one pixel: the difference between lists of {} and {} out of "
         "{} lights, {}x{}, {}, {}\n",
-        device.info().name, short_list, long_list, mostKernelLights, size.width, size.height,
+        device.info().name, short_list, long_list, maxKernelLights, size.width, size.height,
         counted(static_cast<std::uint64_t>(runs), "run"),
         counted(static_cast<std::uint64_t>(threads), "thread"));
     print(timed, hasCpuKernel());

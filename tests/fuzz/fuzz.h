@@ -14,7 +14,7 @@
 namespace diptych::fuzz {
 
 // Limit of decoded image bytes, so that no input fails merely by its size.
-inline constexpr std::uint64_t most_bytes = std::uint64_t{16} << 20;
+inline constexpr std::uint64_t max_bytes = std::uint64_t{16} << 20;
 
 inline void require(bool holds, const char* promise) {
     if (holds) return;

@@ -6,7 +6,7 @@ using namespace diptych;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy([&] {
-        const PfmImage decoded = readPfm(fuzz::bytesAt(data, size), "fuzz.pfm", fuzz::most_bytes);
+        const PfmImage decoded = readPfm(fuzz::bytesAt(data, size), "fuzz.pfm", fuzz::max_bytes);
         const Image& image = decoded.image;
         fuzz::require(image.width > 0 && image.height > 0, "a picture has pixels");
         fuzz::require(image.components == 1 || image.components == 3, "a picture is grey or RGB");

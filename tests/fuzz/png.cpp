@@ -7,7 +7,7 @@ using namespace diptych;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy(
         [&] {
-            const PngImage decoded = readPngImage(fuzz::bytesAt(data, size), "fuzz.png", fuzz::most_bytes);
+            const PngImage decoded = readPngImage(fuzz::bytesAt(data, size), "fuzz.png", fuzz::max_bytes);
             const Image& image = decoded.image;
             fuzz::require(image.width > 0 && image.height > 0, "a picture has pixels");
             fuzz::require(image.components >= 1 && image.components <= 4, "a picture is Y, YA, RGB or RGBA");

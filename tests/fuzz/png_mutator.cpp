@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <cstring>
 
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max);
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most,
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max,
                                                unsigned int seed) {
-    size = LLVMFuzzerMutate(data, size, most);
+    size = LLVMFuzzerMutate(data, size, max);
     if (size < 8 || data[0] != 0x89 || seed % 16 == 0) return size;
     const auto word = [&](std::size_t at) {
         return std::size_t{data[at]} << 24 | std::size_t{data[at + 1]} << 16 |

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             fuzz::require(header.width > 0 && header.height > 0, "an image has pixels");
             fuzz::require(header.bytes() == static_cast<std::uint64_t>(pixels * (header.deep ? 8 : 4)),
                           "a header knows what its pixels take");
-            if (header.bytes() > fuzz::most_bytes) return;
+            if (header.bytes() > fuzz::max_bytes) return;
             const TextureImage image = decodeImage({data, size});
             fuzz::require(image.width == header.width && image.height == header.height,
                           "a header does not lie");

@@ -83,8 +83,8 @@ void requireSound(const Primitive& p, const Scene& scene) {
 // A factor as float32. 0 is also an infinite attenuation distance.
 bool isIn(AnimatedPart part, double value) {
     const PartProperties properties = propertiesOf(part);
-    return (value >= double{static_cast<float>(properties.least)} &&
-            value <= double{static_cast<float>(properties.most)}) ||
+    return (value >= double{static_cast<float>(properties.min)} &&
+            value <= double{static_cast<float>(properties.max)}) ||
            (part == AnimatedPart::attenuation_distance && value == 0);
 }
 

@@ -94,14 +94,14 @@ TEST(AfterBlendingImages, AgainstTheReferenceTooIfLitPassesAsAWhole) {
             const auto at = [&](std::size_t u, std::size_t v) {
                 return frames[0].channels.at(Channel::lit).pixel(v * 160 + u)[1];
             };
-            float least = at(x, y), most = least;
+            float min = at(x, y), max = min;
             for (std::size_t v = y - 2; v <= y + 2; ++v)
                 for (std::size_t u = x - 2; u <= x + 2; ++u) {
-                    least = std::min(least, at(u, v));
-                    most = std::max(most, at(u, v));
+                    min = std::min(min, at(u, v));
+                    max = std::max(max, at(u, v));
                 }
             const std::size_t i = y * 160 + x;
-            if (*frames[0].blended.pixel(i) == 0 || most - least > 0.02f * most) continue;
+            if (*frames[0].blended.pixel(i) == 0 || max - min > 0.02f * max) continue;
             frames[1].channels.at(Channel::lit).pixel(i)[1] *= 1.1f;
             ++faults;
         }

@@ -40,12 +40,12 @@ void expectHolds(Measurer& measurer, const std::string& name, std::initializer_l
     // Float32 shading of the default scene is within 2e-5 of double (compare/reference/MEASURED.md). A
     // tenth of an audit's smallest criterion allows for GPUs, whose division and square roots are less
     // exact.
-    constexpr double most = 1e-4;
+    constexpr double max = 1e-4;
     for (const double magnitude : magnitudes)
         for (const Outcome& outcome : errorsAt(measurer, name, magnitude)) {
-            EXPECT_LE(outcome[audit::Measure::light_p99], most)
+            EXPECT_LE(outcome[audit::Measure::light_p99], max)
                 << name << " " << magnitude << " worst at " << outcome.worst_x << "," << outcome.worst_y;
-            EXPECT_LE(outcome[audit::Measure::depth_p99], most) << name << " " << magnitude;
+            EXPECT_LE(outcome[audit::Measure::depth_p99], max) << name << " " << magnitude;
             EXPECT_LE(outcome[audit::Measure::light_p999], 1e-2) << name << " " << magnitude;
         }
 }

@@ -71,17 +71,17 @@ TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
 
 // The largest difference, relative to the pixel's largest component.
 double furthest(const Image& a, const Image& b) {
-    double most = 0;
+    double max = 0;
     for (std::size_t i = 0; i < a.pixels(); ++i) {
         const float *p = a.pixel(i), *q = b.pixel(i);
         const double largest = static_cast<double>(std::max({q[0], q[1], q[2]}));
         for (int c = 0; c < 3; ++c) {
             const double difference = std::abs(static_cast<double>(p[c]) - static_cast<double>(q[c]));
-            if (!(difference <= most * largest))
-                most = largest > 0 ? difference / largest : std::numeric_limits<double>::infinity();
+            if (!(difference <= max * largest))
+                max = largest > 0 ? difference / largest : std::numeric_limits<double>::infinity();
         }
     }
-    return most;
+    return max;
 }
 
 // Sums of 48 lights of one sign, each with some forty roundings of 6e-8, and fused multiply-adds in the
@@ -135,13 +135,13 @@ TEST(BenchKernels, EachTileListsLightsOfItsOwnInOrder) {
 }
 
 TEST(BenchKernels, WorkloadsAreOfWholeTilesAndListsThatFit) {
-    EXPECT_EQ(makeWorkload({16, 16}, mostKernelLights, 4, 1).indices.size(), 4u);
+    EXPECT_EQ(makeWorkload({16, 16}, maxKernelLights, 4, 1).indices.size(), 4u);
     EXPECT_EQ(makeWorkload({16, 16}, 4, 4, 1).indices, (std::vector<std::uint32_t>{0, 1, 2, 3}));
     EXPECT_THROW(makeWorkload({24, 16}, 64, 16, 1), std::logic_error);
     EXPECT_THROW(makeWorkload({16, 24}, 64, 16, 1), std::logic_error);
     EXPECT_THROW(makeWorkload({16, 16}, 64, 6, 1), std::logic_error);
     EXPECT_THROW(makeWorkload({16, 16}, 8, 12, 1), std::logic_error);
-    EXPECT_THROW(makeWorkload({16, 16}, mostKernelLights + 1, 4, 1), std::logic_error);
+    EXPECT_THROW(makeWorkload({16, 16}, maxKernelLights + 1, 4, 1), std::logic_error);
 }
 
 }  // namespace

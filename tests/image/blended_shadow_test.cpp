@@ -38,13 +38,13 @@ double wrongShare(const Frame& frame, const Frame& reference) {
     std::vector<float> seen;
     for (std::size_t i = 0; i < truth.pixels(); ++i)
         if (*reference.blended.pixel(i) > 0) seen.push_back(*truth.pixel(i));
-    const auto [least, most] = std::ranges::minmax(seen);
-    EXPECT_GT(most, 3 * least) << "no shadow lies on the pane";
+    const auto [min, max] = std::ranges::minmax(seen);
+    EXPECT_GT(max, 3 * min) << "no shadow lies on the pane";
     EXPECT_GT(seen.size(), 1000u);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < truth.pixels(); ++i)
         if (*reference.blended.pixel(i) > 0)
-            wrong += std::abs(*made.pixel(i) - *truth.pixel(i)) > (most - least) / 2;
+            wrong += std::abs(*made.pixel(i) - *truth.pixel(i)) > (max - min) / 2;
     return static_cast<double>(wrong) / static_cast<double>(seen.size());
 }
 

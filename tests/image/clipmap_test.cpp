@@ -121,10 +121,10 @@ TEST_P(ClipmapPaths, AreTheReferencesAwayFromEdges) {
         }
         // With only the whole scene's page, texels are wider than walls are thick: the bias moves a
         // surface through some.
-        const double most = pool > 1 ? 5e-4 : 0.01;
-        EXPECT_LE(static_cast<double>(falseLit), most * static_cast<double>(covered))
+        const double max = pool > 1 ? 5e-4 : 0.01;
+        EXPECT_LE(static_cast<double>(falseLit), max * static_cast<double>(covered))
             << covered << ", near " << near << ", pool " << pool;
-        EXPECT_LE(static_cast<double>(falseDark), most * static_cast<double>(covered))
+        EXPECT_LE(static_cast<double>(falseDark), max * static_cast<double>(covered))
             << covered << ", near " << near << ", pool " << pool;
         const std::string of = fmt::format("_of_{}", pool);
         RecordProperty("false_lit" + of, static_cast<int>(falseLit));
@@ -377,23 +377,23 @@ TEST(ClipmapTable, NoEntryNamesAnotherPagesSlot) {
     settings.shadow_size = 2048;
     settings.clipmap_page_size = 64;
     const glm::dvec3 eyes[] = {{0.4, 6, 2.5}, {-2, 3, -2}, {1, 5, -3}, {-1, 4, 3}, {0.4, 6, 2.5}};
-    std::uint64_t most = 0;
+    std::uint64_t max = 0;
     for (const glm::dvec3& eye : eyes) {
         settings.camera = cameraAt(eye, {-0.3, 0, 0});
-        most = std::max(most, drawnWith(renderer, settings, {}).counters.shadow_pages.requested);
+        max = std::max(max, drawnWith(renderer, settings, {}).counters.shadow_pages.requested);
     }
-    settings.clipmap_pages = static_cast<int>(most) + 1;
+    settings.clipmap_pages = static_cast<int>(max) + 1;
     for (const glm::dvec3& eye : eyes) {
         settings.camera = cameraAt(eye, {-0.3, 0, 0});
         const Frame frame = drawnWith(renderer, settings,
                                       {Channel::shadow_visibility, Channel::material_id, Channel::position});
         EXPECT_EQ(frame.counters.shadow_pages.fallback, 0u);
         // Shadow length of a 1 m board, sun 45 degrees high and 0.3 radians from +X: 0.955 m.
-        const auto [least, dark] = seenBetween(frame, eye, -0.85, -0.1);
+        const auto [min, dark] = seenBetween(frame, eye, -0.85, -0.1);
         const auto [beside, brightest] = seenBetween(frame, eye, 0.1, 2);
         EXPECT_EQ(dark, 0) << settings.camera;
         EXPECT_EQ(beside, 1) << settings.camera;
-        EXPECT_EQ(least, 0);
+        EXPECT_EQ(min, 0);
         EXPECT_EQ(brightest, 1);
         EXPECT_EQ(seenBetween(frame, eye, -3, -1.1).first, 1) << settings.camera;
     }

@@ -48,10 +48,10 @@ Scene noisySquare() {
 
 double largestError(const Frame& frame, const Frame& truth, Channel mode) {
     const Image &a = frame.channels.at(mode), &b = truth.channels.at(mode);
-    double most = 0;
+    double max = 0;
     for (std::size_t i = 0; i < a.data.size(); ++i)
-        most = std::max(most, std::abs(double{a.data[i]} - double{b.data[i]}));
-    return most;
+        max = std::max(max, std::abs(double{a.data[i]} - double{b.data[i]}));
+    return max;
 }
 
 // 16-bit values err by a step, 1.5e-5, plus float32's texture coordinates; colours by half a ULP of a half

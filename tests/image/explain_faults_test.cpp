@@ -17,7 +17,7 @@ namespace diptych::tests {
 namespace {
 
 // Number of views for each fault and each pair; all of them would take a minute.
-constexpr std::size_t leastCases = 20, leastPairCases = 10;
+constexpr std::size_t minCases = 20, minPairCases = 10;
 
 bool isAmong(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::count(names, name) > 0;
@@ -80,7 +80,7 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
     for (const InjectedFault& fault : faults) {
         Tally tally;
         for (InjectedView* const view : injectedViews(fault.kind)) {
-            if (tally.cases == leastCases) break;
+            if (tally.cases == minCases) break;
             const Frame test = view->with(fault);
             const Image &a = view->right.channels.at(Channel::lit), &b = test.channels.at(Channel::lit);
             if (!differsVisibly(a, b)) continue;
@@ -90,7 +90,7 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
             EXPECT_TRUE(addsUp(e, a, b)) << fault.means << " in " << view->name << ": " << listed(e);
         }
         table += tally.row(fault.means);
-        EXPECT_GE(tally.cases, leastCases) << fault.means;
+        EXPECT_GE(tally.cases, minCases) << fault.means;
         EXPECT_GE(tally.rate(), 0.95) << fault.means << tally.missed;
     }
     fmt::print("{}", table);
@@ -103,20 +103,20 @@ TEST(ExplainFaults, TheLightIsNamedToo) {
         if (!fault.of_first_light) continue;
         Tally tally;
         for (InjectedView* const view : injectedViews(fault.kind)) {
-            if (tally.cases == leastCases) break;
+            if (tally.cases == minCases) break;
             if (!view->feels(fault)) continue;
             const Explanation e = view->explained(view->with(fault));
             std::map<std::string, double> parts;
             for (const Cause& cause : e.causes)
                 for (const CausePart& light : cause.lights)
                     parts[light.name + std::to_string(light.index)] += light.share;
-            const auto most =
+            const auto max =
                 std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
-            const bool named = most != parts.end() && most->first.starts_with(firstLight);
-            tally.count(*view, e, named, named ? e.shareOf(most->second) : 0.0);
+            const bool named = max != parts.end() && max->first.starts_with(firstLight);
+            tally.count(*view, e, named, named ? e.shareOf(max->second) : 0.0);
         }
         fmt::print("{}", tally.row(fault.means + ": which light"));
-        EXPECT_GE(tally.cases, leastCases) << fault.means;
+        EXPECT_GE(tally.cases, minCases) << fault.means;
         EXPECT_GE(tally.rate(), 0.9) << fault.means << tally.missed;
     }
 }
@@ -199,7 +199,7 @@ TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
         Tally tally;
         std::size_t redundant = 0, hiding = 0;
         for (InjectedView* const view : injectedViews(kind)) {
-            if (tally.cases == leastPairCases) break;
+            if (tally.cases == minPairCases) break;
             if (!view->feels(first) || !view->feels(second)) continue;
             const std::array<const InjectedFault*, 2> both{&first, &second};
             const Explanation e = view->explained(view->with(both));
@@ -211,7 +211,7 @@ TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
         table += fmt::format("{:<92} {:>3} {:>4.0f} %   {} redundant, {} hide each other\n",
                              fmt::format("{} + {}", pair.first, pair.second), tally.cases, 100 * tally.rate(),
                              redundant, hiding);
-        EXPECT_GE(tally.cases, leastPairCases) << pair.first << " + " << pair.second;
+        EXPECT_GE(tally.cases, minPairCases) << pair.first << " + " << pair.second;
         EXPECT_GE(tally.rate(), 0.9) << pair.first << " + " << pair.second << tally.missed;
         if (pair.sign != 0) {
             EXPECT_GE(pair.sign < 0 ? redundant : hiding, 9 * tally.cases / 10)

@@ -48,17 +48,17 @@ double rangeAt(const TextureImage& image, const TexelDecode& decode, std::size_t
     const auto first = [](int pixel) {
         return static_cast<int>(std::floor((pixel + 0.5) * filteredTexels / filteredPixels - 0.5));
     };
-    double least = 1, most = 0;
+    double min = 1, max = 0;
     for (int j = 0; j < 2; ++j)
         for (int i = 0; i < 2; ++i) {
             const int column = std::clamp(first(x) + i, 0, filteredTexels - 1),
                       row = std::clamp(first(y) + j, 0, filteredTexels - 1);
             const double texel = double{
                 decode[image.rgba[4 * static_cast<std::size_t>(row * filteredTexels + column) + component]]};
-            least = std::min(least, texel);
-            most = std::max(most, texel);
+            min = std::min(min, texel);
+            max = std::max(max, texel);
         }
-    return most - least;
+    return max - min;
 }
 
 // Number of values of a channel whose error exceeds `grant` times the bound.

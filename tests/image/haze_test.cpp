@@ -138,7 +138,7 @@ TEST(HazeImages, AreTheReferences) {
                 const Frame frame = drawnBy(Path::deferred, scene.renderer, settings, hazeShown);
                 settings.reference_mode = mode;
                 const Frame truth = drawnBy(Path::reference, scene.renderer, settings, hazeShown);
-                double most_haze = 0, most_background = 0, largest = 0;
+                double max_haze = 0, max_background = 0, largest = 0;
                 std::size_t background = 0, off = 0;
                 for (std::size_t i = 0; i < frame.channels.at(Channel::lit).pixels(); ++i) {
                     const bool surface = *frame.channels.at(Channel::material_id).pixel(i) >= 0;
@@ -152,9 +152,9 @@ TEST(HazeImages, AreTheReferences) {
                         off += apart(Channel::transmittance) > (mode == ReferenceMode::surface ? 1e-6 : 1e-4)
                                    ? 1
                                    : 0;
-                        most_haze = std::max(most_haze, apart(Channel::lit_haze));
+                        max_haze = std::max(max_haze, apart(Channel::lit_haze));
                         largest = std::max(largest, double{truth.channels.at(Channel::lit_haze).pixel(i)[c]});
-                        if (!surface) most_background = std::max(most_background, apart(Channel::lit));
+                        if (!surface) max_background = std::max(max_background, apart(Channel::lit));
                     }
                     background += surface ? 0 : 1;
                 }
@@ -162,8 +162,8 @@ TEST(HazeImages, AreTheReferences) {
                 EXPECT_EQ(off, 0u) << what;
                 // Error of 64 steps; rounding of the closed form; error of the stored depth.
                 const double allowed = steps > 0 ? 5e-3 : mode == ReferenceMode::surface ? 2e-6 : 1e-4;
-                EXPECT_LT(most_haze, allowed * std::max(largest, 0.1)) << what;
-                EXPECT_LT(most_background, allowed * std::max(largest, 0.1)) << what;
+                EXPECT_LT(max_haze, allowed * std::max(largest, 0.1)) << what;
+                EXPECT_LT(max_background, allowed * std::max(largest, 0.1)) << what;
                 EXPECT_GT(background, 100u) << what;
                 EXPECT_GT(largest, 1e-3) << what;
             }
@@ -214,15 +214,15 @@ TEST(HazeImages, HaveNoBandAtTheHorizon) {
         for (const Path path : drawn_paths) {
             const Frame frame = drawnBy(path, scene.renderer, settings, {Channel::lit, Channel::material_id});
             const Image& image = frame.channels.at(Channel::lit);
-            double most = 0, whole = 0;
+            double max = 0, whole = 0;
             for (int y = 1; y < image.height; ++y) {
                 ASSERT_LT(frame.channels.at(Channel::material_id).at(0, y, 0), 0.0f);
-                most = std::max(most, std::abs(double{image.at(0, y, 2)} - double{image.at(0, y - 1, 2)}));
+                max = std::max(max, std::abs(double{image.at(0, y, 2)} - double{image.at(0, y - 1, 2)}));
                 whole = std::max(whole, double{image.at(0, y, 2)});
             }
             EXPECT_GT(whole, 0.5) << nameOf(path);
             // A row is 1/50 degree.
-            EXPECT_LT(most, 0.01 * whole) << nameOf(path) << ", " << steps;
+            EXPECT_LT(max, 0.01 * whole) << nameOf(path) << ", " << steps;
         }
     }
 }

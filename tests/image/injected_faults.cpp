@@ -78,7 +78,7 @@ std::function<void(InjectedView&, Frame&)> exposed(float factor) {
 // The correct image, except that a tile of 24 x 16 pixels lacks the light with the largest effect there.
 void dropFromTile(InjectedView& view, Frame& frame) {
     InjectedFault without{"a light is dropped", {}};
-    double most = 0;
+    double max = 0;
     Frame dropped;
     for (std::size_t light = 0; light < view.scene.lights.size(); ++light) {
         without.draw = [light](Settings&, Scene& scene) {
@@ -91,9 +91,9 @@ void dropFromTile(InjectedView& view, Frame& frame) {
             for (int x = 16; x < 40; ++x)
                 sum += std::abs(double{other.channels.at(Channel::lit).at(x, y, 1)} -
                                 frame.channels.at(Channel::lit).at(x, y, 1));
-        if (sum > most) most = sum, dropped = std::move(other);
+        if (sum > max) max = sum, dropped = std::move(other);
     }
-    if (most == 0) return;
+    if (max == 0) return;
     std::vector<Channel> modes = termChannels();
     modes.push_back(Channel::lit);
     modes.push_back(Channel::light_count);

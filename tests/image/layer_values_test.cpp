@@ -148,7 +148,7 @@ TEST(LayerValues, AFilmIsItsFormula) {
             m.metallic = 0.25f;
             m.iridescence = film.weight;
             m.iridescence_ior = film.ior;
-            m.iridescence_thickness_most = film.nm;
+            m.iridescence_thickness_max = film.nm;
             const glm::dvec3 n = tiltedNormal(degrees), albedo(m.base_color);
             // At 0 degrees along the normal.
             const glm::dvec3 l = degrees > 0 ? slanted : n;
@@ -181,7 +181,7 @@ TEST(LayerValues, AFilmWithoutThicknessIsTheBase) {
     Material thin = bare;
     thin.iridescence = 1;
     thin.iridescence_ior = 1.8f;
-    thin.iridescence_thickness_most = 0;
+    thin.iridescence_thickness_max = 0;
     const glm::dvec3 light = glm::normalize(glm::dvec3(-0.7, 0.2, 0.6));
     const std::vector<Frame> with = bothPaths(tiltedSquare(thin, 40, light), onePixel(1)),
                              without = bothPaths(tiltedSquare(bare, 40, light), onePixel(1));

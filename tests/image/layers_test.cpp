@@ -157,7 +157,7 @@ TEST(Layers, AFactorOfZeroIsTheBaseToTheBit) {
         Material& m = plain.materials[i];
         removeLayers(m);
         removeLayers(zero.materials[i]);
-        m.clearcoat_roughness = m.sheen_roughness = m.iridescence_thickness_most = 0;
+        m.clearcoat_roughness = m.sheen_roughness = m.iridescence_thickness_max = 0;
         for (std::size_t slot = gpu::SLOT_clearcoat; slot < gpu::SLOT_COUNT; ++slot)
             m.*materialSlots[slot].texture = {};
     }

@@ -37,10 +37,10 @@ Image timedLit(Renderer& renderer, const Settings& settings) {
 
 // Smallest compared radiance, W/(sr m^2). Lavapipe's fragments flush terms below 2^-126 to 0 in one
 // process and keep them in another. Such terms have changed radiance by up to 6e-37.
-constexpr float leastCompared = 1e-30f;
+constexpr float minCompared = 1e-30f;
 Image withoutDarkness(Image image) {
     for (float& value : image.data)
-        if (std::abs(value) < leastCompared) value = 0;
+        if (std::abs(value) < minCompared) value = 0;
     return image;
 }
 

@@ -33,7 +33,7 @@ Frame drawnOf(const Scene& scene, const Settings& settings,
 
 // Minimum and maximum local visibility of the pixels of one material.
 struct LocallySeen {
-    float least = 1, most = 0;
+    float min = 1, max = 0;
     int pixels = 0;
 };
 LocallySeen locallySeen(const Frame& frame, int material = 0) {
@@ -41,8 +41,8 @@ LocallySeen locallySeen(const Frame& frame, int material = 0) {
     for (std::size_t i = 0; i < frame.channels.at(Channel::local_visibility).pixels(); ++i) {
         if (*frame.channels.at(Channel::material_id).pixel(i) != static_cast<float>(material)) continue;
         const float visibility = *frame.channels.at(Channel::local_visibility).pixel(i);
-        seen.least = std::min(seen.least, visibility);
-        seen.most = std::max(seen.most, visibility);
+        seen.min = std::min(seen.min, visibility);
+        seen.max = std::max(seen.max, visibility);
         ++seen.pixels;
     }
     return seen;
@@ -128,7 +128,7 @@ TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     EXPECT_LE(static_cast<double>(falseDark), GetParam().wrong * static_cast<double>(covered))
         << covered << ", near " << near;
     EXPECT_LT(near, covered / 2) << "or next to nothing is compared";
-    EXPECT_LT(locallySeen(path).least, 0.1f) << "something is in shadow";
+    EXPECT_LT(locallySeen(path).min, 0.1f) << "something is in shadow";
     RecordProperty("false_lit", static_cast<int>(falseLit));
     RecordProperty("false_dark", static_cast<int>(falseDark));
     RecordProperty("near_edges", static_cast<int>(near));
@@ -155,7 +155,7 @@ TEST(LocalShadowPlane, IsFullyLitAtEveryAngle) {
                     const Frame frame =
                         drawnOf(scene, locally(smallImage(GBufferEncoding::standard), 1, size, kernel));
                     const LocallySeen seen = locallySeen(frame);
-                    EXPECT_EQ(seen.least, 1) << height << " " << spot << " " << size << " " << kernel;
+                    EXPECT_EQ(seen.min, 1) << height << " " << spot << " " << size << " " << kernel;
                     EXPECT_GT(seen.pixels, 5000);
                 }
 }
@@ -163,9 +163,9 @@ TEST(LocalShadowPlane, IsFullyLitAtEveryAngle) {
 TEST(LocalShadowPlane, IsFullyLitAtEveryScaleAndDarkFromBelow) {
     for (const double scale : {1e-3, 1.0, 1e4}) {
         const Settings settings = locally(smallImage(GBufferEncoding::standard), 1);
-        EXPECT_EQ(locallySeen(drawnOf(ground({castingPoint({1, 1.5, 0.7})}, {}, scale), settings)).least, 1)
+        EXPECT_EQ(locallySeen(drawnOf(ground({castingPoint({1, 1.5, 0.7})}, {}, scale), settings)).min, 1)
             << scale;
-        EXPECT_EQ(locallySeen(drawnOf(ground({castingPoint({1, -1.5, 0.7})}, {}, scale), settings)).most, 0)
+        EXPECT_EQ(locallySeen(drawnOf(ground({castingPoint({1, -1.5, 0.7})}, {}, scale), settings)).max, 0)
             << scale;
     }
 }
@@ -213,7 +213,7 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
         Scene scene = ground({castingPoint({2, 2, 0})}, {board(1)});
         scene.materials[1].alpha_mode = mode;
         scene.materials[1].base_color.a = alpha;
-        return locallySeen(drawnOf(scene, locally(smallImage(GBufferEncoding::standard), 1))).least;
+        return locallySeen(drawnOf(scene, locally(smallImage(GBufferEncoding::standard), 1))).min;
     };
     EXPECT_EQ(darkest(AlphaMode::opaque, 0.3f), 0);
     EXPECT_EQ(darkest(AlphaMode::mask, 1.0f), 0);
@@ -226,10 +226,10 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
     const Frame frame = drawnOf(scene, settings);
     EXPECT_TRUE(says(frame, "shadows of 1 local light: no tile is drawn; "));
     EXPECT_TRUE(says(frame, "without a tile: no caster"));
-    EXPECT_EQ(locallySeen(frame).least, 1);
+    EXPECT_EQ(locallySeen(frame).min, 1);
     EXPECT_EQ(frame.local_shadow_reach, 0);
     for (Light& light : scene.lights) light.position.y = -2;
-    EXPECT_EQ(locallySeen(drawnOf(scene, settings)).most, 0);
+    EXPECT_EQ(locallySeen(drawnOf(scene, settings)).max, 0);
 }
 
 // If no light requests shadows, nothing is rendered and no bit changes. A light that requests one casts
@@ -240,17 +240,17 @@ TEST(LocalShadowCasters, AreThoseThatAsk) {
     const std::vector<Channel> channels{Channel::local_visibility, Channel::material_id, Channel::lit};
     const Frame without = drawnOf(scene, off, channels), asked = drawnOf(scene, none, channels);
     EXPECT_EQ(differingPixels(without.channels.at(Channel::lit), asked.channels.at(Channel::lit)), 0u);
-    EXPECT_EQ(locallySeen(asked).least, 1);
+    EXPECT_EQ(locallySeen(asked).min, 1);
     EXPECT_EQ(asked.local_shadow_reach, 0);
     EXPECT_TRUE(says(asked, "2 point or spot lights cast no shadow")) << "and it is said";
     EXPECT_FALSE(says(without, "no shadow"));
     const Frame brightest = drawnOf(scene, one, channels);
-    EXPECT_LT(locallySeen(brightest).least, 1);
+    EXPECT_LT(locallySeen(brightest).min, 1);
     EXPECT_TRUE(says(brightest, "shadows of 1 local light: "));
     scene.lights[0].shadow = true;
     const Frame itself = drawnOf(scene, none, channels);
     EXPECT_EQ(differingPixels(itself.channels.at(Channel::lit), brightest.channels.at(Channel::lit)), 0u);
-    EXPECT_EQ(locallySeen(drawnOf(scene, off, channels)).least, 1) << "--shadows off";
+    EXPECT_EQ(locallySeen(drawnOf(scene, off, channels)).min, 1) << "--shadows off";
 }
 
 // Each tile renders the objects within it, up to the light's range.
@@ -277,7 +277,7 @@ TEST(LocalShadowCasters, BeyondTheAtlasAreCounted) {
     EXPECT_TRUE(says(frame, "shadows of 42 local lights: ")) << "256 / 6";
     EXPECT_TRUE(says(frame, "8 point or spot lights cast no shadow"));
     EXPECT_TRUE(says(frame, "3 of them should cast one, but the atlas is full (256 tiles)"));
-    EXPECT_EQ(locallySeen(frame).least, 0) << "the channel is that of those which cast";
+    EXPECT_EQ(locallySeen(frame).min, 0) << "the channel is that of those which cast";
 }
 
 // With every assignment the same lights cast, and every sum has the same order.
@@ -308,7 +308,7 @@ TEST(LocalShadowLists, OfObjectsKeepThoseThatCast) {
     Settings settings = locally(smallImage(GBufferEncoding::standard), 1);
     settings.assign = Assignment::per_object;
     settings.pixel_lights = 0;
-    EXPECT_EQ(locallySeen(drawnOf(scene, settings)).least, 0);
+    EXPECT_EQ(locallySeen(drawnOf(scene, settings)).min, 0);
 }
 
 // More lights than a draw may process: casting lights fall into several batches.

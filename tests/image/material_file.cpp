@@ -131,11 +131,11 @@ void writeSquare(GltfFile& file, const Cell& cell, std::size_t material) {
                        {"TEXCOORD_0", file.accessor(first, FLOAT, "VEC2", 2)},
                        {"TEXCOORD_1", file.accessor(second, FLOAT, "VEC2", 2)}};
     if (!cell.tangents_made) attributes["TANGENT"] = file.accessor(tangents, FLOAT, "VEC4", 4);
-    const auto color = [&]<class T>(double most, int type, int width, T) {
+    const auto color = [&]<class T>(double max, int type, int width, T) {
         std::vector<T> values;
         for (int corner = 0; corner < 4; ++corner)
             for (int c = 0; c < width; ++c)
-                values.push_back(static_cast<T>(cell.color[c] * most + (most > 1 ? 0.5 : 0)));
+                values.push_back(static_cast<T>(cell.color[c] * max + (max > 1 ? 0.5 : 0)));
         attributes["COLOR_0"] = file.accessor(values, type, width == 4 ? "VEC4" : "VEC3",
                                               static_cast<std::size_t>(width), type != FLOAT);
     };

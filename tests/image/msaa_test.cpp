@@ -279,7 +279,7 @@ TEST(Msaa, CoverageMissesWhatInterpenetrates) {
     Renderer renderer(device(), scene, pipelines());
     const Frame forward = litOf(renderer, sampled({32, 32}), Path::forward_plus);
     const Image& truth = forward.channels.at(Channel::lit);
-    const float most = *std::max_element(truth.data.begin(), truth.data.end());
+    const float max = *std::max_element(truth.data.begin(), truth.data.end());
     // By more than 1/255 of the maximum. The two triangles of a square are similar: shaded as one, they
     // differ by the distance of the two shading points.
     const auto differing = [&](MsaaEdges edges) {
@@ -289,7 +289,7 @@ TEST(Msaa, CoverageMissesWhatInterpenetrates) {
         const Image& image = frame.channels.at(Channel::lit);
         int count = 0;
         for (std::size_t i = 0; i < truth.data.size(); ++i)
-            count += std::abs(image.data[i] - truth.data[i]) > most / 255;
+            count += std::abs(image.data[i] - truth.data[i]) > max / 255;
         return count;
     };
     EXPECT_EQ(differing(MsaaEdges::exact), 0);

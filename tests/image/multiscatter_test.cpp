@@ -27,7 +27,7 @@ TEST(MultiscatterFurnace, MetalsVanishAndDielectricsConserve) {
              bothPaths(scene.renderer, inFurnace(each),
                        {Channel::lit_ambient, Channel::metallic, Channel::material_id})) {
             const std::string name = frame.name + " " + std::string(nameOf(each));
-            float least = 2, most = 0, dielectric = 0;
+            float min = 2, max = 0, dielectric = 0;
             const Image &radiance = frame.channels.at(Channel::lit_ambient),
                         &id = frame.channels.at(Channel::material_id);
             for (std::size_t i = 0; i < id.data.size(); ++i) {
@@ -40,15 +40,15 @@ TEST(MultiscatterFurnace, MetalsVanishAndDielectricsConserve) {
                     }
                     continue;
                 }
-                least = std::min(least, value), most = std::max(most, value);
+                min = std::min(min, value), max = std::max(max, value);
             }
             if (each == Multiscatter::off) {
-                EXPECT_LE(most, 1.0f) << name;
-                EXPECT_LT(least, 0.5f) << name << ": a rough metal keeps over half of it";
+                EXPECT_LE(max, 1.0f) << name;
+                EXPECT_LT(min, 0.5f) << name << ": a rough metal keeps over half of it";
                 EXPECT_GT(dielectric, 1.2f) << name << ": appendix B has come to conserve energy";
             } else {
-                EXPECT_NEAR(least, 1, 2e-3) << name;
-                EXPECT_NEAR(most, 1, 2e-3) << name;
+                EXPECT_NEAR(min, 1, 2e-3) << name;
+                EXPECT_NEAR(max, 1, 2e-3) << name;
             }
         }
 }

@@ -278,12 +278,12 @@ TEST(Panes, LeavesOfOtherWeightsAreNotShadedAsOne) {
     const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
     const Image &deferred = frames[0].channels.at(Channel::lit),
                 &forward = frames[1].channels.at(Channel::lit);
-    const float most = *std::ranges::max_element(forward.data);
-    EXPECT_GT(most, 0.1f);
+    const float max = *std::ranges::max_element(forward.data);
+    EXPECT_GT(max, 0.1f);
     std::size_t differing = 0, mixed = 0;
     for (std::size_t i = 0; i < forward.pixels(); ++i) {
-        differing += std::abs(deferred.pixel(i)[1] - forward.pixel(i)[1]) > most / 255;
-        mixed += forward.pixel(i)[1] > 0.2f * most && forward.pixel(i)[1] < 0.8f * most;
+        differing += std::abs(deferred.pixel(i)[1] - forward.pixel(i)[1]) > max / 255;
+        mixed += forward.pixel(i)[1] > 0.2f * max && forward.pixel(i)[1] < 0.8f * max;
     }
     EXPECT_EQ(differing, 0u);
     EXPECT_GT(mixed, 100u) << "no pixel shows both";
@@ -301,8 +301,8 @@ TEST(Panes, LayersAreTheSameInLightBatches) {
     Light far = many.lights.back();
     far.position = {1e4, 0, 0};
     far.range = 0.1f;
-    const std::size_t most = device().profile().light_iterations;
-    many.lights.insert(many.lights.end(), 2 * most + 7, far);
+    const std::size_t max = device().profile().light_iterations;
+    many.lights.insert(many.lights.end(), 2 * max + 7, far);
     Settings settings = smallImage(GBufferEncoding::full);
     settings.size = {24, 14};
     settings.assign = Assignment::every;
@@ -314,7 +314,7 @@ TEST(Panes, LayersAreTheSameInLightBatches) {
                              parts = bothPaths(many, settings, light);
     for (std::size_t path = 0; path < 2; ++path) {
         EXPECT_GT(*std::ranges::max_element(parts[path].channels.at(Channel::light_count).data),
-                  static_cast<float>(most));
+                  static_cast<float>(max));
         for (const auto& [mode, image] : whole[path].channels) {
             if (mode == Channel::light_count) continue;
             EXPECT_EQ(differingPixels(image, parts[path].channels.at(mode)), 0u)

@@ -16,8 +16,8 @@ class BuiltinParity : public testing::TestWithParam<std::string> {};
 class AssetParity : public testing::TestWithParam<std::string> {};
 class LayeredParity : public testing::TestWithParam<std::string> {};
 
-void expectBitEqual(const std::vector<Frame>& frames, std::size_t leastChannels = 14) {
-    expectSameChannels(frames[0], frames[1], leastChannels);
+void expectBitEqual(const std::vector<Frame>& frames, std::size_t minChannels = 14) {
+    expectSameChannels(frames[0], frames[1], minChannels);
     for (const Frame& frame : frames) {
         EXPECT_EQ(frame.counters.unreproduced_pixels, 0u)
             << frame.name << ": the capture must reproduce the timed lit";

@@ -78,9 +78,9 @@ TEST(PerObject, AsManyLightsAsAskedForAreShadedPerPixel) {
     const Scene scene = loadScene("builtin:spheres?lights=256");
     for (const int pixels : {1, 4, 8}) {
         const Image counts = drawn(scene, Assignment::per_object, pixels).channels.at(Channel::light_count);
-        const float most = *std::ranges::max_element(counts.data);
-        EXPECT_LE(most, static_cast<float>(pixels + 1)) << "the sun is the base";
-        EXPECT_GE(most, static_cast<float>(pixels));
+        const float max = *std::ranges::max_element(counts.data);
+        EXPECT_LE(max, static_cast<float>(pixels + 1)) << "the sun is the base";
+        EXPECT_GE(max, static_cast<float>(pixels));
     }
 }
 

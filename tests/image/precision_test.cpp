@@ -164,7 +164,7 @@ TEST(Precision, HalfShadingIsNearAndFinite) {
     settings.shading_precision = ShadingPrecision::fp16;
     const Frame half = drawnBy(Path::deferred, scene.renderer, settings, shown);
     EXPECT_EQ(half.counters.nonfinite_pixels, 0u);
-    for (const auto& [mode, most] : {std::pair(shown[0], 2e-2), {shown[1], 2e-3}}) {
+    for (const auto& [mode, max] : {std::pair(shown[0], 2e-2), {shown[1], 2e-3}}) {
         double error = 0, sum = 0;
         const Image &a = exact.channels.at(mode), &b = half.channels.at(mode);
         for (std::size_t i = 0; i < a.pixels(); ++i)
@@ -173,7 +173,7 @@ TEST(Precision, HalfShadingIsNearAndFinite) {
                 sum += double{a.pixel(i)[c]};
             }
         EXPECT_GT(error, 0.0) << debugMode(mode).name;
-        EXPECT_LT(error, most * sum) << debugMode(mode).name << ": " << error / sum;
+        EXPECT_LT(error, max * sum) << debugMode(mode).name << ": " << error / sum;
     }
 }
 

@@ -137,8 +137,8 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
     const std::size_t shown = coveredPixels(traced);
     if (!scene.textures.empty() || shown == 0) return;
     const Coverage same = samePlaces(traced, surface);
-    const double least = GetParam() == "builtin:coplanar" ? 0.85 : 0.98;
-    EXPECT_GE(static_cast<double>(same.count), least * static_cast<double>(shown));
+    const double min = GetParam() == "builtin:coplanar" ? 0.85 : 0.98;
+    EXPECT_GE(static_cast<double>(same.count), min * static_cast<double>(shown));
     for (const Channel mode :
          {Channel::albedo, Channel::metallic, Channel::roughness, Channel::emission, Channel::occlusion,
           Channel::specular, Channel::dielectric_f90})  // channels of the material

@@ -191,7 +191,7 @@ private:
 
 // The scene of a name or a file, in a cache of the most recently requested.
 inline UploadedScene& uploaded(const std::string& name) {
-    constexpr std::size_t most = 12;
+    constexpr std::size_t max = 12;
     pipelines();  // created first, with the device, because they must outlive the scenes
     static auto& scenes =
         *new std::list<std::pair<std::string, UploadedScene>>;  // most recently requested first
@@ -199,7 +199,7 @@ inline UploadedScene& uploaded(const std::string& name) {
     if (found != scenes.end()) {
         scenes.splice(scenes.begin(), scenes, found);
     } else {
-        if (scenes.size() == most) scenes.pop_back();
+        if (scenes.size() == max) scenes.pop_back();
         scenes.emplace_front(std::piecewise_construct, std::forward_as_tuple(name),
                              std::forward_as_tuple(name));
     }
@@ -237,7 +237,7 @@ inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = d
 }
 
 // Every common channel must be the same, and there must be at least `least` of them.
-inline void expectSameChannels(const Frame& a, const Frame& b, std::size_t least = 14) {
+inline void expectSameChannels(const Frame& a, const Frame& b, std::size_t min = 14) {
     std::size_t compared = 0;
     for (const auto& [mode, image] : a.channels) {
         const Image* const other = findChannel(b, mode);
@@ -245,7 +245,7 @@ inline void expectSameChannels(const Frame& a, const Frame& b, std::size_t least
         ++compared;
         EXPECT_EQ(differingPixels(image, *other), 0u) << "channel " << debugMode(mode).name;
     }
-    EXPECT_GE(compared, least);
+    EXPECT_GE(compared, min);
 }
 
 inline std::size_t coveredPixels(const Frame& frame) {

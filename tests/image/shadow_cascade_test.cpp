@@ -47,7 +47,7 @@ struct Contact {
 
 struct Gap {
     double texels = 0;    // from the line of contact to the shadow, in light space: mean of all rows
-    double least = 1;     // visibility on the sun's side, beyond the filter's radius and 1.5 texels
+    double min = 1;       // visibility on the sun's side, beyond the filter's radius and 1.5 texels
     double farthest = 0;  // largest distance behind the line with visibility over a half; texels
 };
 
@@ -97,7 +97,7 @@ Gap gapOf(const Contact& contact) {
             const double texel = frame.shadow_reach.at(serves).texel;
             const double behind = -double{place.at(x, y, 0)} * across / texel;
             const double v{seen.at(x, y)};
-            if (behind < -(contact.kernel / 2.0 + 1.5)) gap.least = std::min(gap.least, v);
+            if (behind < -(contact.kernel / 2.0 + 1.5)) gap.min = std::min(gap.min, v);
             if (behind < 0) continue;
             if (v > 0.5) gap.farthest = std::max(gap.farthest, behind);
             if (v <= 0.5 && !begins) begins = behind;
@@ -121,7 +121,7 @@ TEST(ShadowContactGap, IsAtMostOneAndAHalfTexelsAndTheFiltersRadius) {
             }
             const Gap gap = gapOf(contact);
             EXPECT_LE(gap.farthest, 1.5 + kernel / 2.0) << degrees << " " << kernel;
-            EXPECT_EQ(gap.least, 1) << degrees << " " << kernel;
+            EXPECT_EQ(gap.min, 1) << degrees << " " << kernel;
             RecordProperty(fmt::format("gap_{}_{}", kernel, degrees), fmt::format("{:.3f}", gap.texels));
         }
 }
@@ -130,16 +130,16 @@ TEST(ShadowContactGap, IsAtMostOneAndAHalfTexelsAndTheFiltersRadius) {
 TEST(ShadowContactGap, IsTheSameInEveryCascadeAndAtEveryDepth) {
     for (const double degrees : {1.0, 20.0, 60.0})
         for (const int kernel : {3, 7}) {
-            double least = 1e9, most = 0;
+            double min = 1e9, max = 0;
             const auto take = [&](int serving, double padding) {
                 const Gap gap =
                     gapOf({.degrees = degrees, .kernel = kernel, .serving = serving, .padding = padding});
-                least = std::min(least, gap.texels);
-                most = std::max(most, gap.texels);
+                min = std::min(min, gap.texels);
+                max = std::max(max, gap.texels);
             };
             for (const int serving : {0, 1, 2, 3}) take(serving, 0);
             for (const double padding : {10.0, 1000.0}) take(1, padding);
-            EXPECT_LE(most - least, 0.25) << degrees << " " << kernel << ": " << least << " to " << most;
+            EXPECT_LE(max - min, 0.25) << degrees << " " << kernel << ": " << min << " to " << max;
         }
 }
 
@@ -246,8 +246,8 @@ TEST(ShadowSeams, AreNoWiderThanTexels) {
     std::vector<double> inside(4, 0);  // the largest step within each cascade
     for (std::size_t i = 1; i < rows.size(); ++i)
         if (rows[i].cascade == rows[i - 1].cascade) {
-            double& most = inside[static_cast<std::size_t>(rows[i].cascade)];
-            most = std::max(most, std::abs(rows[i].edge - rows[i - 1].edge));
+            double& max = inside[static_cast<std::size_t>(rows[i].cascade)];
+            max = std::max(max, std::abs(rows[i].edge - rows[i - 1].edge));
         }
     int seams = 0;
     for (std::size_t i = 1; i < rows.size(); ++i) {

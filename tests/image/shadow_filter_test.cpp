@@ -280,12 +280,12 @@ TEST(ShadowMoments, OfAPlaneLeaveItLit) {
                 scene.lights[0].direction = {-std::cos(up), -std::sin(up), 0.0};
                 Settings settings = filteredBy(shadows, GBufferEncoding::full, 512);
                 if (shadows != Shadows::msm4) settings.evsm_precision = precision;
-                double least = 1;
+                double min = 1;
                 for (const Crossed& c :
                      across(drawnOnce(scene, settings,
                                       {Channel::shadow_visibility, Channel::material_id, Channel::position})))
-                    least = std::min(least, c.visibility);
-                EXPECT_GT(least, 0.98) << nameOf(shadows) << nameOf(precision) << " " << degrees;
+                    min = std::min(min, c.visibility);
+                EXPECT_GT(min, 0.98) << nameOf(shadows) << nameOf(precision) << " " << degrees;
             }
         }
 }

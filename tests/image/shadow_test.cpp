@@ -32,7 +32,7 @@ Frame drawn(const Scene& scene, const Settings& settings,
 
 // Minimum and maximum visibility over the covered pixels that a predicate of position accepts.
 struct Seen {
-    float least = 1, most = 0;
+    float min = 1, max = 0;
     int pixels = 0;
 };
 template <class Where>
@@ -42,8 +42,8 @@ Seen seenWhere(const Frame& frame, const Where& where) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             if (frame.channels.at(Channel::material_id).at(x, y) < 0 || !where(x, y)) continue;
-            seen.least = std::min(seen.least, image.at(x, y));
-            seen.most = std::max(seen.most, image.at(x, y));
+            seen.min = std::min(seen.min, image.at(x, y));
+            seen.max = std::max(seen.max, image.at(x, y));
             ++seen.pixels;
         }
     return seen;
@@ -123,14 +123,14 @@ TEST(ShadowPlane, IsFullyLitAtEveryAngle) {
             settings.shadow_cascades = 2;
             const Seen seen =
                 seenWhere(drawn(groundUnder(sunAt(degrees)), settings), [](int, int) { return true; });
-            EXPECT_EQ(seen.least, 1) << degrees << " " << kernel;
+            EXPECT_EQ(seen.min, 1) << degrees << " " << kernel;
             EXPECT_GT(seen.pixels, 5000);
         }
 }
 
 TEST(ShadowPlane, IsDarkWhereTheSunIsBelowIt) {
     const Frame frame = drawn(groundUnder(sunAt(-20)), shadowed(smallImage(GBufferEncoding::standard)));
-    EXPECT_EQ(seenWhere(frame, [](int, int) { return true; }).most, 0);
+    EXPECT_EQ(seenWhere(frame, [](int, int) { return true; }).max, 0);
 }
 
 // Scenes of any size, also with the sun at the zenith.
@@ -140,7 +140,7 @@ TEST(ShadowPlane, IsFullyLitAtEveryScale) {
             const Seen seen = seenWhere(drawn(groundUnder(sunAt(degrees), {}, scale),
                                               shadowed(smallImage(GBufferEncoding::standard))),
                                         [](int, int) { return true; });
-            EXPECT_EQ(seen.least, 1) << scale << " " << degrees;
+            EXPECT_EQ(seen.min, 1) << scale << " " << degrees;
         }
 }
 
@@ -167,14 +167,14 @@ TEST(ShadowContact, BeginsAtTheFootAndEndsAtTheTop) {
         };
         const Seen shadow =
             seenWhere(frame, onGround(-length + gap / std::sin(degrees * std::numbers::pi / 180), -gap));
-        EXPECT_EQ(shadow.most, 0) << degrees;
+        EXPECT_EQ(shadow.max, 0) << degrees;
         EXPECT_GT(shadow.pixels, 50) << degrees;
         const Seen open = seenWhere(frame, onGround(gap, 3));
-        EXPECT_EQ(open.least, 1) << degrees;
+        EXPECT_EQ(open.min, 1) << degrees;
         EXPECT_GT(open.pixels, 50) << degrees;
         const Seen beyond =
             seenWhere(frame, onGround(-3.5, -length - gap / std::sin(degrees * std::numbers::pi / 180)));
-        EXPECT_EQ(beyond.least, 1) << degrees;
+        EXPECT_EQ(beyond.min, 1) << degrees;
     }
 }
 
@@ -188,7 +188,7 @@ TEST(ShadowCasters, FollowTheirAlphaMode) {
         const Frame frame = drawn(scene, settings);
         return seenWhere(frame,
                          [&](int x, int y) { return frame.channels.at(Channel::material_id).at(x, y) == 0; })
-            .least;
+            .min;
     };
     EXPECT_EQ(darkest(AlphaMode::opaque, 0.3f), 0);
     EXPECT_EQ(darkest(AlphaMode::mask, 1.0f), 0);
@@ -232,7 +232,7 @@ TEST(ShadowCasters, AreOfTheBrightestSun) {
     lamp.position = {0, 2, 0};
     scene.lights.push_back(lamp);
     const Frame none = drawn(scene, settings);
-    EXPECT_EQ(seenWhere(none, [](int, int) { return true; }).least, 1);
+    EXPECT_EQ(seenWhere(none, [](int, int) { return true; }).min, 1);
     EXPECT_TRUE(none.shadow_reach.empty());
 }
 
@@ -264,9 +264,9 @@ TEST(ShadowMapsOfNothing, AreNotDrawn) {
     const Frame open = drawn(scene, settings);
     EXPECT_TRUE(says(open, "nothing casts"));
     EXPECT_EQ(passes(scene, settings), 0);
-    EXPECT_EQ(ground(open).least, 1);
+    EXPECT_EQ(ground(open).min, 1);
     scene.lights[0] = sunAt(-20);
-    EXPECT_EQ(ground(drawn(scene, settings)).most, 0);
+    EXPECT_EQ(ground(drawn(scene, settings)).max, 0);
 }
 
 }  // namespace

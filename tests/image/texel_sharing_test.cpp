@@ -194,7 +194,7 @@ TEST(TexelSharing, ANormalOfOneColorWidensHighlightsAlike) {
 TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
     struct Case {
         int width, height;
-        double least_distance;  // m, of the camera
+        double min_distance;  // m, of the camera
         double roughness, metallic;
     };
     constexpr double code = 1.0 / 255;
@@ -204,11 +204,11 @@ TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
         scene.images.push_back(noiseOf(64, 32, 4));
         scene.images.push_back(noiseOf(c.width, c.height, 5));
         scene.textures = {{0, {}}, {1, {}}, {2, {}}};
-        scene.cameras[0].world_from_camera[3].z = c.least_distance;
-        scene.cameras[0].yfov = 2 * std::atan(1 / c.least_distance);
+        scene.cameras[0].world_from_camera[3].z = c.min_distance;
+        scene.cameras[0].yfov = 2 * std::atan(1 / c.min_distance);
         Material& m = scene.materials[0];
         for (TextureSlot* slot : {&m.base_color_texture, &m.normal_texture, &m.metallic_roughness_texture})
-            slot->u.x = slot->v.y = c.least_distance > 1 ? 16 : 1;
+            slot->u.x = slot->v.y = c.min_distance > 1 ? 16 : 1;
         m.base_color_texture.texture = 0;
         m.normal_texture.texture = 1;
         m.metallic_roughness_texture.texture = 2;
@@ -231,8 +231,8 @@ TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
                 RecordProperty(std::to_string(c.width) + (k == 0 ? " roughness" : " metallic"),
                                std::to_string(worst[k]));
             }
-            EXPECT_LE(worst[0], c.roughness) << c.width << " at " << c.least_distance;
-            EXPECT_LE(worst[1], c.metallic) << c.width << " at " << c.least_distance;
+            EXPECT_LE(worst[0], c.roughness) << c.width << " at " << c.min_distance;
+            EXPECT_LE(worst[1], c.metallic) << c.width << " at " << c.min_distance;
             if (c.roughness > 0.1) {
                 EXPECT_GT(worst[0], 0.01) << "it was magnified";
             }

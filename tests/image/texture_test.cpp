@@ -182,13 +182,12 @@ TEST(Textures, FiltersOfEveryKind) {
 
 // Coordinates far outside the texture still give finite values, the same in both paths.
 TEST(Textures, EndlessCoordinatesGiveNumbers) {
-    constexpr float most = std::numeric_limits<float>::max();
+    constexpr float max = std::numeric_limits<float>::max();
     for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge})
         for (const double scale : {1.0, 1e12})
             for (const double offset : {0.0, -1e12}) {
                 Scene scene = square();
-                scene.meshes[0].primitives[0].texcoords[0] = {
-                    {0, most}, {most, most}, {most, -most}, {0, -most}};
+                scene.meshes[0].primitives[0].texcoords[0] = {{0, max}, {max, max}, {max, -max}, {0, -max}};
                 scene.textures[0].sampler = {};
                 scene.textures[0].sampler.wrap_s = scene.textures[0].sampler.wrap_t = wrap;
                 Material& m = scene.materials[0];

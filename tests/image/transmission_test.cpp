@@ -94,12 +94,12 @@ const Image& wallOf(Path path) {
 // The largest difference to expected(x, y, component), right of the columns before `first`.
 template <class F>
 double largestDifference(const Image& made, const F& expected, int first = 0) {
-    double most = 0;
+    double max = 0;
     for (int y = 0; y < made.height; ++y)
         for (int x = first; x < made.width; ++x)
             for (int c = 0; c < 3; ++c)
-                most = std::max(most, std::abs(double{made.at(x, y, c)} - expected(x, y, c)));
-    return most;
+                max = std::max(max, std::abs(double{made.at(x, y, c)} - expected(x, y, c)));
+    return max;
 }
 
 // The same to the wall where rays leave a slab, one index for each component. `kept`: what passes; a pane
@@ -114,11 +114,11 @@ double largestError(const Image& made, const Image& wall, double thickness, cons
         return passes * kept[c] * bilinear(wall, pixelBehind(p, thickness, iors[c], made), c);
     });
 }
-void expectThrough(const Material& glass, const glm::dvec3& iors, const glm::dvec3& kept, double most) {
+void expectThrough(const Material& glass, const glm::dvec3& iors, const glm::dvec3& kept, double max) {
     for (const Path path : drawn_paths) {
         const Image made = litOf(path, paneBeforeWall(glass), image());
         EXPECT_LT(largestError(made, wallOf(path), double{glass.thickness}, iors, kept, glass.specular > 0),
-                  most)
+                  max)
             << nameOf(path) << " " << glass.ior;
     }
 }
@@ -226,12 +226,12 @@ TEST(Refraction, RoughGlassReadsTheMeansOfTheImage) {
         for (const Path path : drawn_paths) {
             const Image made = litOf(path, paneBeforeWall(glass), image());
             const double level = std::log2(made.width) * double{of.roughness} * narrower;
-            const double most = largestDifference(made, [&](int x, int y, int c) {
+            const double max = largestDifference(made, [&](int x, int y, int c) {
                 return blurred(levels,
                                pixelBehind({x + 0.5, y + 0.5}, double{of.thickness}, double{of.ior}, made),
                                level, c);
             });
-            EXPECT_LT(most, rounding) << of.roughness << " " << of.ior << " " << nameOf(path);
+            EXPECT_LT(max, rounding) << of.roughness << " " << of.ior << " " << nameOf(path);
         }
     }
 }

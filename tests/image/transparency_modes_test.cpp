@@ -321,18 +321,18 @@ TEST(TransparencyModes, TheOrderOfDrawsChangesNothing) {
                 Settings settings = imageSettings(mode);
                 if (mode == Transparency::list) settings.transparency_layers = layers;
                 const Image first = litWith(scene, settings, nothing);
-                double most = 0;
+                double max = 0;
                 std::size_t differing = 0;
                 for (unsigned seed = 0; seed < 16; ++seed) {
                     const Image other = litWith(scene, settings, shuffledBy(seed));
                     differing += differingPixels(first, other);
                     for (std::size_t i = 0; i < first.data.size(); ++i)
-                        most = std::max(most, std::abs(double{first.data[i]} - double{other.data[i]}));
+                        max = std::max(max, std::abs(double{first.data[i]} - double{other.data[i]}));
                 }
                 if (mode == Transparency::list)
                     EXPECT_EQ(differing, 0u) << "room for " << layers;
                 else
-                    EXPECT_LT(most, 1e-3) << nameOf(mode);
+                    EXPECT_LT(max, 1e-3) << nameOf(mode);
                 if (mode != Transparency::list) break;
             }
         }

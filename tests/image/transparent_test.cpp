@@ -116,16 +116,16 @@ TEST(Transparent, OtherChannelsAreThoseOfTheOpaqueSurfaces) {
         Renderer renderer(device(), scene, pipelines()), without(device(), opaque, pipelines());
         const Frame all = drawnBy(path, renderer, blendedImage(), channels),
                     rest = drawnBy(path, without, blendedImage(), channels);
-        const auto most = [&](Channel mode) {
+        const auto max = [&](Channel mode) {
             const DebugMode& m = debugMode(mode);
             const Image &a = rest.channels.at(mode), &b = all.channels.at(mode);
             return channelStats(m.error_kind, m.kind, a, b, everyPixel(a.pixels())).max;
         };
-        EXPECT_GT(most(Channel::lit), 0.1) << nameOf(path);
-        EXPECT_EQ(most(channels[1]), 0) << nameOf(path);
-        EXPECT_EQ(most(channels[2]), 0) << nameOf(path);
+        EXPECT_GT(max(Channel::lit), 0.1) << nameOf(path);
+        EXPECT_EQ(max(channels[1]), 0) << nameOf(path);
+        EXPECT_EQ(max(channels[2]), 0) << nameOf(path);
         // F0 is then read, not a constant: some blended materials are unlit.
-        EXPECT_LT(most(channels[3]), 1e-6) << nameOf(path);
+        EXPECT_LT(max(channels[3]), 1e-6) << nameOf(path);
     }
 }
 
@@ -301,11 +301,11 @@ TEST_P(BlendedScene, OfOpacity1IsTheOpaqueOne) {
     for (const Path path : drawn_paths) {
         const Image made =
             drawnBlended(path, allOf(AlphaMode::blend, 1, scene), settings).channels.at(Channel::lit);
-        double most = 0;
+        double max = 0;
         for (std::size_t i = 0; i < made.data.size(); ++i)
-            most = std::max(most, std::abs(double{made.data[i]} - double{opaque.data[i]}) /
-                                      std::max(1.0, double{opaque.data[i]}));
-        EXPECT_LE(most, 2e-7) << nameOf(path);
+            max = std::max(max, std::abs(double{made.data[i]} - double{opaque.data[i]}) /
+                                    std::max(1.0, double{opaque.data[i]}));
+        EXPECT_LE(max, 2e-7) << nameOf(path);
     }
 }
 

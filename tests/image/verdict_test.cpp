@@ -236,7 +236,7 @@ const NegativeControl negativeControls[] = {
      "builtin:layers"},
     {"iridescence_thickness",
      [](Scene& s) {
-         for (Material& m : s.materials) m.iridescence_thickness_most *= 1.002f;
+         for (Material& m : s.materials) m.iridescence_thickness_max *= 1.002f;
      },
      {},
      "builtin:layers"},

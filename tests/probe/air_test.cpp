@@ -65,8 +65,8 @@ private:
 
 double apart(const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 d = glm::abs(a - b);
-    const double most = std::max({d.x, d.y, d.z});
-    return std::isnan(d.x + d.y + d.z) ? endless : most;
+    const double max = std::max({d.x, d.y, d.z});
+    return std::isnan(d.x + d.y + d.z) ? endless : max;
 }
 
 // Rays of thin and thick air, from below height 0 to far above, up, down, level and almost level, from a
@@ -115,7 +115,7 @@ TEST(Air, ClosedFormIsTheIntegral) {
         AirProbe probe;
         for (const Ray& ray : rays) probe.add(settings, &sun, ray);
         const std::vector<reference::Hazed> hazed = probe.run();
-        double most = 0;
+        double max = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const reference::Hazed truth =
                 reference::Haze(air, {0, rays[i].height, 0}).along({}, rays[i].away, rays[i].reach);
@@ -127,9 +127,9 @@ TEST(Air, ClosedFormIsTheIntegral) {
             EXPECT_LT(apart(hazed[i].scattered, truth.scattered),
                       1e-5 * std::max({truth.scattered.x, truth.scattered.y, truth.scattered.z}) + 1e-30)
                 << what;
-            most = std::max(most, apart(hazed[i].transmittance, glm::dvec3(1)));
+            max = std::max(max, apart(hazed[i].transmittance, glm::dvec3(1)));
         }
-        EXPECT_GT(most, medium.density < 1e-3f ? 1e-7 : 0.1) << medium.name << ": rays that see it";
+        EXPECT_GT(max, medium.density < 1e-3f ? 1e-7 : 0.1) << medium.name << ": rays that see it";
     }
 }
 
@@ -183,10 +183,10 @@ TEST(Air, ThereIsNoBandAtTheHorizon) {
             const std::vector<reference::Hazed> hazed = probe.run();
             for (std::size_t i = 1; i < hazed.size(); ++i) {
                 // Radiance changes by less than its own magnitude over 5 degrees.
-                const double most = 1e-6 + 10 * (ups[i] - ups[i - 1]);
-                EXPECT_LT(apart(hazed[i].scattered, hazed[i - 1].scattered), most)
+                const double max = 1e-6 + 10 * (ups[i] - ups[i - 1]);
+                EXPECT_LT(apart(hazed[i].scattered, hazed[i - 1].scattered), max)
                     << reach << " " << steps << " " << ups[i];
-                EXPECT_LT(apart(hazed[i].transmittance, hazed[i - 1].transmittance), most)
+                EXPECT_LT(apart(hazed[i].transmittance, hazed[i - 1].transmittance), max)
                     << reach << " " << steps << " " << ups[i];
             }
             if (std::isinf(reach)) {
@@ -246,12 +246,12 @@ TEST(Air, AMarchComesToTheIntegral) {
             AirProbe probe;
             for (const Ray& ray : rays) probe.add(settings, &sun, ray);
             const std::vector<reference::Hazed> hazed = probe.run();
-            double most = 0;
+            double max = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 EXPECT_LT(apart(hazed[i].transmittance, truth[i].transmittance), 1e-6) << medium.name << i;
-                most = std::max(most, apart(hazed[i].scattered, truth[i].scattered));
+                max = std::max(max, apart(hazed[i].scattered, truth[i].scattered));
             }
-            EXPECT_LT(most, allowed) << medium.name << " " << steps;
+            EXPECT_LT(max, allowed) << medium.name << " " << steps;
         }
     }
 }
@@ -267,14 +267,14 @@ TEST(Air, AMarchAlmostAlongTheHorizonComesToTheIntegral) {
         const reference::Air air = airOfSettings(settings, &sun);
         // Largest depth of an infinite ray, in metres of air at height 0.
         const HazeNumbers numbers = hazeNumbers(settings, &sun, {0, 0, 0});
-        const double most = double{gpu::HAZE_ENDLESS_DEPTH} / double{numbers.haze.extinction.x},
+        const double max = double{gpu::HAZE_ENDLESS_DEPTH} / double{numbers.haze.extinction.x},
                      scale = 1 / double{numbers.haze.inverse_height};
         AirProbe probe;
         std::vector<reference::Hazed> truth;
         for (const double height : {0.0, 1.0, 2.0, 4.0})
             for (const double fall : {0.2, 0.5, 1.0, 1.5}) {
                 // Slope for which a ray accumulates `most` while density grows by e^fall.
-                const double up = -std::exp(-height) * std::expm1(fall) * scale / most;
+                const double up = -std::exp(-height) * std::expm1(fall) * scale / max;
                 const glm::dvec3 away(glm::vec3(std::sqrt(1 - up * up), up, 0));
                 const Ray ray{double{static_cast<float>(height * scale)}, away, endless};
                 probe.add(settings, &sun, ray);

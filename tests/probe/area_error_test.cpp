@@ -83,14 +83,14 @@ double seen(const std::array<double, 2>& shaded) {
 // |shaded - reference|: mean, relative to the reference's mean, and maximum, relative to a sky of the same
 // radiance.
 struct Error {
-    double sum = 0, reference = 0, most = 0;
+    double sum = 0, reference = 0, max = 0;
     void add(double shaded, double expected, double sky) {
         const double off = std::abs(shaded - expected);
-        sum += off, reference += expected, most = std::max(most, off / sky);
+        sum += off, reference += expected, max = std::max(max, off / sky);
     }
     double mean() const { return sum / reference; }
     std::string words(const char* format) const {
-        return fmt::format(fmt::runtime(format), 100 * mean(), 100 * most);
+        return fmt::format(fmt::runtime(format), 100 * mean(), 100 * max);
     }
 };
 

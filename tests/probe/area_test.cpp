@@ -22,8 +22,8 @@ glm::dvec3 randomUnit(std::mt19937& random) {
     }
 }
 
-Light lightAround(std::mt19937& random, LightKind kind, double least, double most) {
-    std::uniform_real_distribution<double> size(std::log(least), std::log(most)), unit(0, 1);
+Light lightAround(std::mt19937& random, LightKind kind, double min, double max) {
+    std::uniform_real_distribution<double> size(std::log(min), std::log(max)), unit(0, 1);
     const auto metres = [&] { return static_cast<float>(std::exp(size(random))); };
     Light light;
     light.kind = kind;

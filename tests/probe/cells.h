@@ -89,7 +89,7 @@ struct LitRegion {
 // for convex sets") from several starting points. Negative if not converged.
 inline double gap(const LitRegion& region, const Cell& cell) {
     const auto corners = cell.corners();
-    double least = std::numeric_limits<double>::infinity();
+    double min = std::numeric_limits<double>::infinity();
     const glm::dvec3 middle = (corners[0] + corners[7]) * 0.5;
     glm::dvec3 p = nearestInCell(region.apex, cell);
     if (glm::distance(p, region.nearest(p)) > glm::distance(middle, region.nearest(middle))) p = middle;
@@ -97,9 +97,9 @@ inline double gap(const LitRegion& region, const Cell& cell) {
     for (int i = 0; i < 20000; ++i) {
         const glm::dvec3 q = region.nearest(p);
         p = nearestInCell(q, cell);
-        least = glm::distance(p, q);
-        if (least < 1e-13 || (i % 50 == 49 && before - least < 1e-12 * region.range)) return least;
-        if (i % 50 == 49) before = least;
+        min = glm::distance(p, q);
+        if (min < 1e-13 || (i % 50 == 49 && before - min < 1e-12 * region.range)) return min;
+        if (i % 50 == 49) before = min;
     }
     return -1;
 }

@@ -17,7 +17,7 @@ namespace {
 // known, and with it its orthogonal polynomials. Among all distributions with these four moments and a
 // point at `at`, consider the one with the least shadow. Its other points are roots of the polynomials'
 // kernel, with weights 1 / kernel (Akhiezer 1965, "The Classical Moment Problem").
-double leastShadowOfBiased(double first, double second, double share, double bias, double at) {
+double minShadowOfBiased(double first, double second, double share, double bias, double at) {
     const std::array<double, 4> places{first, second, 0, 1},
         weights{(1 - bias) * share, (1 - bias) * (1 - share), bias / 2, bias / 2};
     std::array<std::array<double, 3>, 3> polynomials{};  // coefficients of 1, z, z^2
@@ -104,7 +104,7 @@ TEST(FourMoments, Msm4LeaksWhatItsBiasLetsThrough) {
             const std::vector<MomentResult> results = seenThrough(gpu::SHADOWS_MSM4, filters);
             for (std::size_t i = 0; i < behind.size(); ++i) {
                 const double leak =
-                    1 - leastShadowOfBiased(1 - double{near}, 0.5, 0.5, double{bias}, 0.5 + behind[i]);
+                    1 - minShadowOfBiased(1 - double{near}, 0.5, 0.5, double{bias}, 0.5 + behind[i]);
                 EXPECT_NEAR(double{results[i].visibility}, leak, 0.02)
                     << bias << " " << near << " " << behind[i];
             }
@@ -145,17 +145,17 @@ TEST(FourMoments, OfEveryDepthFillTheRangeOfIntegers) {
     std::vector<MomentFilter> filters;
     for (int i = -5; i <= 105; ++i)
         filters.push_back({.near = float(i) / 100, .far = float(i) / 100, .receiver = 0.5f});
-    std::array<float, 4> least{9, 9, 9, 9}, most{-9, -9, -9, -9};
+    std::array<float, 4> min{9, 9, 9, 9}, max{-9, -9, -9, -9};
     for (const MomentResult& result : seenThrough(gpu::SHADOWS_MSM4, filters))
         for (std::size_t k = 0; k < 4; ++k) {
-            least[k] = std::min(least[k], result.moments[k]);
-            most[k] = std::max(most[k], result.moments[k]);
+            min[k] = std::min(min[k], result.moments[k]);
+            max[k] = std::max(max[k], result.moments[k]);
         }
     for (std::size_t k = 0; k < 4; ++k) {
-        EXPECT_NEAR(least[k], 0, 0.01) << k;
-        EXPECT_NEAR(most[k], 1, 0.01) << k;
-        EXPECT_GE(least[k], -2e-5f) << k;
-        EXPECT_LE(most[k], 1 + 2e-5f) << k;
+        EXPECT_NEAR(min[k], 0, 0.01) << k;
+        EXPECT_NEAR(max[k], 1, 0.01) << k;
+        EXPECT_GE(min[k], -2e-5f) << k;
+        EXPECT_LE(max[k], 1 + 2e-5f) << k;
     }
 }
 

@@ -294,18 +294,18 @@ int wrongTiles(const View& view, const DepthSamples& stored, gpu::uint tileShift
     int wrong = 0;
     for (gpu::uint ty = 0; ty < bounds.tiles.y; ++ty)
         for (gpu::uint tx = 0; tx < bounds.tiles.x; ++tx) {
-            double least = gpu::MAX_BOUND_RADIUS, largest = 0;
+            double min = gpu::MAX_BOUND_RADIUS, largest = 0;
             const int x0 = static_cast<int>(tx) * side, y0 = static_cast<int>(ty) * side;
             for (int y = y0; y < std::min(y0 + side, stored.height); ++y)
                 for (int x = x0; x < std::min(x0 + side, stored.width); ++x)
                     for (int s = 0; s < stored.samples; ++s) {
                         const float z = stored.at(x, y, s);
                         if (z == 0) continue;
-                        least = std::min(least, depthOf(view, double{z}));
+                        min = std::min(min, depthOf(view, double{z}));
                         largest = std::max(largest, depthOf(view, double{z}));
                     }
             const gpu::vec2 got = bounds.depths[ty * bounds.tiles.x + tx];
-            wrong += !same(got.x, least) || !same(got.y, largest);
+            wrong += !same(got.x, min) || !same(got.y, largest);
         }
     return wrong;
 }

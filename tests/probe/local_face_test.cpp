@@ -45,7 +45,7 @@ struct Cube {
 
 struct Received {
     glm::vec2 texel{0};
-    double depth = 0, least = 0;
+    double depth = 0, min = 0;
     int face = 0;
 };
 
@@ -89,12 +89,12 @@ glm::dvec3 drawnIn(const Cube& cube, const glm::vec2& texel) {
 // centre.
 double farthestOff(const Cube& cube, const std::vector<std::pair<glm::vec3, glm::vec3>>& places,
                    const std::vector<Received>& read) {
-    double most = 0;
+    double max = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const glm::dvec3 direction = glm::normalize(glm::dvec3(places[i].first));
-        most = std::max(most, glm::length(drawnIn(cube, read[i].texel) - direction));
+        max = std::max(max, glm::length(drawnIn(cube, read[i].texel) - direction));
     }
-    return most * double{cube.texels[3].z};
+    return max * double{cube.texels[3].z};
 }
 
 // Pairs of directions a quarter of a texel apart: `inside` a face, or on both sides of an edge or corner
@@ -127,11 +127,10 @@ TEST(LocalFace, AcrossEdgesIsAsWithinFaces) {
     const Cube cube;
     constexpr int pairs = 100'000;
     const auto apart = [&](const std::vector<Received>& read) {
-        double most = 0;
+        double max = 0;
         for (std::size_t i = 0; i < read.size(); i += 2)
-            most =
-                std::max(most, glm::length(drawnIn(cube, read[i].texel) - drawnIn(cube, read[i + 1].texel)));
-        return most;
+            max = std::max(max, glm::length(drawnIn(cube, read[i].texel) - drawnIn(cube, read[i + 1].texel)));
+        return max;
     };
     const auto within = pairsOf(cube, pairs, true), across = pairsOf(cube, pairs, false);
     const std::vector<Received> inside = received(cube, within), outside = received(cube, across);
@@ -183,9 +182,9 @@ TEST(LocalFace, ComparesNothingBelowTheSurfacesPlane) {
                     glm::normalize(glm::cross(way, glm::vec3(any(random), any(random), any(random))));
                 places.emplace_back(at, other * std::sqrt(1 - sine * sine) - way * sine);
             }
-            double least = 1;
-            for (const Received& r : received(cube, places)) least = std::min(least, r.least / r.depth);
-            EXPECT_GT(least, 0) << size << " " << kernel;
+            double min = 1;
+            for (const Received& r : received(cube, places)) min = std::min(min, r.min / r.depth);
+            EXPECT_GT(min, 0) << size << " " << kernel;
         }
 }
 

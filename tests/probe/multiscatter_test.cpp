@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t multiscatterWidth = 13;
 
 void push(std::vector<float>& input, const reference::Surface& s, const glm::dvec3& l) {
-    const double least = double{gpu::MIN_PERCEPTUAL_ROUGHNESS}, roughness = std::max(s.roughness, least);
+    const double min = double{gpu::MIN_PERCEPTUAL_ROUGHNESS}, roughness = std::max(s.roughness, min);
     const double cosine = std::max(s.to_viewer.z, double{gpu::MIN_N_DOT_V});
     const glm::dvec2 table = specularAlbedo(cosine, roughness * roughness);
     for (const double x : {s.to_viewer.x, s.to_viewer.y, s.to_viewer.z, l.x, l.y, l.z, s.roughness,

@@ -161,11 +161,11 @@ private:
             return c.fresh_tangents || number == 0 || (number + attribute) % 3 != 0;
         };
         // Fresh tangents need a smooth displacement, which keeps the triangles of a flat primitive connected.
-        const double most = c.fresh_tangents ? 0.05 : 0.3 / std::sqrt(c.targets);
+        const double max = c.fresh_tangents ? 0.05 : 0.3 / std::sqrt(c.targets);
         for (std::size_t v = 0; v < p.positions.size(); ++v) {
             const glm::dvec2 at(p.texcoords[0][v]);
             const auto by = [&](int attribute) {
-                return most * (c.fresh_tangents ? wave(at, number + 1.3 * attribute) : uniform(-1, 1));
+                return max * (c.fresh_tangents ? wave(at, number + 1.3 * attribute) : uniform(-1, 1));
             };
             if (has(0)) target.positions.emplace_back(c.size * glm::dvec3(by(0), by(1), by(2)));
             if (has(1)) target.normals.emplace_back(by(3), by(4), by(5));

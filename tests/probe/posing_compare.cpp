@@ -254,21 +254,21 @@ private:
     double jointsBound(const Parts& parts, const glm::dvec3& rest, double length, const glm::dvec3& exact,
                        const std::string& at) const {
         const double rounded = 6 * of_.roundings() * halfUlp;
-        double off = 0, least = 1;
+        double off = 0, min = 1;
         glm::dvec3 sum(0);
         for (const Mover& mover : parts.movers) {
             const double largest = largestOf(mover.axes);
             if (largest == 0) continue;
             const glm::dmat3 axes = mover.axes / largest;
             const double determinant = std::abs(glm::determinant(axes));
-            least = std::min(least, determinant);
+            min = std::min(min, determinant);
             const glm::dvec3 turned = cofactorsOf(axes) * rest;
             const double share = mover.weight / (largest * determinant);
             off += share * (rounded * length + glm::length(turned) * 2 * rounded / determinant);
             sum += mover.weight * (glm::transpose(glm::inverse(mover.axes)) * rest);
         }
         const double size = glm::length(sum);
-        if (least < 1e-6 || !(size > 1e-3 * off)) return std::numeric_limits<double>::infinity();
+        if (min < 1e-6 || !(size > 1e-3 * off)) return std::numeric_limits<double>::infinity();
         EXPECT_LT(degreesBetween(sum, exact), 1e-6) << at;
         return off / size;
     }

@@ -139,14 +139,14 @@ TEST(SpotCone, BoundsHoldWhatTheShaderLights) {
             return shipped.offset + cosine * shipped.scale > 0 ||
                    std::fma(cosine, shipped.scale, shipped.offset) > 0;
         };
-        float dark = static_cast<float>(std::cos(double{cone.second})) - 1e-5f, least = dark + 2e-5f;
+        float dark = static_cast<float>(std::cos(double{cone.second})) - 1e-5f, min = dark + 2e-5f;
         ASSERT_FALSE(lights_up(dark));
-        ASSERT_TRUE(lights_up(least));
+        ASSERT_TRUE(lights_up(min));
         for (int step = 0; step < 60; ++step) {
-            const float middle = dark + (least - dark) / 2;
-            (lights_up(middle) ? least : dark) = middle;
+            const float middle = dark + (min - dark) / 2;
+            (lights_up(middle) ? min : dark) = middle;
         }
-        EXPECT_LE(double{bound.cos_cone}, double{least} - 3e-7) << cone.second;
+        EXPECT_LE(double{bound.cos_cone}, double{min} - 3e-7) << cone.second;
         EXPECT_GE(double{bound.cos_cone}, std::cos(double{cone.second}) - 5e-6) << cone.second;
         EXPECT_NEAR(std::hypot(double{bound.cos_cone}, double{bound.sin_cone}), 1, 1e-6);
         EXPECT_GE(double{bound.sin_cone}, 0);

@@ -29,7 +29,7 @@ struct LayerFactor {
     std::variant<float Material::*, glm::vec3 Material::*> member;
     AnimatedPart part;
     glm::vec3 initial, typical;
-    double least, most;                   // values beyond are clamped
+    double min, max;                      // values beyond are clamped
     std::optional<Channel> channel = {};  // of factors without a texture
 
     std::size_t width() const { return member.index() == 0 ? 1 : 3; }
@@ -131,9 +131,9 @@ inline const std::vector<TestedLayer>& testedLayers() {
           {film, "iridescenceIor", &M::iridescence_ior, P::iridescence_ior, number(1.3f), number(1.6f), 1,
            large, C::iridescence_ior},
           // The minimum may be above the maximum.
-          {film, "iridescenceThicknessMinimum", &M::iridescence_thickness_least,
-           P::iridescence_thickness_least, number(100), number(600), 0, 65504},
-          {film, "iridescenceThicknessMaximum", &M::iridescence_thickness_most, P::iridescence_thickness_most,
+          {film, "iridescenceThicknessMinimum", &M::iridescence_thickness_min,
+           P::iridescence_thickness_min, number(100), number(600), 0, 65504},
+          {film, "iridescenceThicknessMaximum", &M::iridescence_thickness_max, P::iridescence_thickness_max,
            number(400), number(200), 0, 65504}},
          {{film, "iridescenceTexture", gpu::SLOT_iridescence, C::iridescence, "r"},
           {film, "iridescenceThicknessTexture", gpu::SLOT_iridescence_thickness, C::iridescence_thickness,

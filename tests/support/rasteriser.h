@@ -110,8 +110,8 @@ public:
         if (whole < 0) std::swap(at[1], at[2]);
         const glm::i64vec2 low = glm::min(at[0], glm::min(at[1], at[2])),
                            high = glm::max(at[0], glm::max(at[1], at[2]));
-        const auto pixel = [&](std::int64_t x, int most) {
-            return std::clamp<std::int64_t>(x / step - (x % step < 0), 0, most);
+        const auto pixel = [&](std::int64_t x, int max) {
+            return std::clamp<std::int64_t>(x / step - (x % step < 0), 0, max);
         };
         for (std::int64_t y = pixel(low.y, grid_.height); y <= pixel(high.y, grid_.height - 1); ++y)
             for (std::int64_t x = pixel(low.x, grid_.width); x <= pixel(high.x, grid_.width - 1); ++x)

@@ -140,8 +140,8 @@ TEST(DiffCommand, WhatIsNoLightIsNotEvaluatedByEyes) {
         }
         write("a.exr", "diffuse", first);
         write("b.exr", "diffuse", second);
-        const std::string pair = "diff a.exr b.exr --tolerance ", least = every == 8 ? "0.5" : "0.0019";
-        const Ran ran = runTool(folder, pair + least);
+        const std::string pair = "diff a.exr b.exr --tolerance ", min = every == 8 ? "0.5" : "0.0019";
+        const Ran ran = runTool(folder, pair + min);
         EXPECT_EQ(ran.code, 1) << every;
         EXPECT_NE(ran.out.find(every == 8 ? "diffuse: not light, by its negative values"
                                           : "diffuse: FLIP cannot see 1 pixel that differs"),

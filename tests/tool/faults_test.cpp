@@ -120,7 +120,7 @@ TEST(Faults, AnyCallThatFailsBesideFilesOfOthersLeavesAllAsItWas) {
 
 // If the folder contains only our files, the old report is complete at once. With foreign files, the next
 // run completes the replacement.
-void killAtEvery(const std::string& calls, int step, bool theirs, int least) {
+void killAtEvery(const std::string& calls, int step, bool theirs, int min) {
     const Folder folder;
     const Reports reports(folder, theirs);
     const Rows rows(slice);
@@ -141,7 +141,7 @@ void killAtEvery(const std::string& calls, int step, bool theirs, int least) {
         ASSERT_TRUE(reports.isNew(there)) << where;
         reports.reset();
     }
-    EXPECT_GE(rows.atMost(killed), least);
+    EXPECT_GE(rows.atMost(killed), min);
     EXPECT_TRUE(leftoversIn(folder.path()).empty()) << "the last run sweeps what the killed ones left";
 }
 

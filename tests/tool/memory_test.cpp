@@ -46,7 +46,7 @@ TEST(Memory, ComparingHoldsFewImagesAtATime) {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer keeps what was freed";
 #endif
-    constexpr double mostBytesPerPixel = 300;
+    constexpr double maxBytesPerPixel = 300;
     const Folder scratch;
     const auto compare = [&](int width, int height) {
         return largestMemory(scratch, {"compare", "builtin:points", "--runs", "1", "--size",
@@ -54,7 +54,7 @@ TEST(Memory, ComparingHoldsFewImagesAtATime) {
     };
     const double small = compare(smallWidth, smallHeight), large = compare(largeWidth, largeHeight);
     const double pixels = double{largeWidth} * largeHeight - double{smallWidth} * smallHeight;
-    EXPECT_LT((large - small) / pixels, mostBytesPerPixel) << small << " bytes, then " << large;
+    EXPECT_LT((large - small) / pixels, maxBytesPerPixel) << small << " bytes, then " << large;
     RecordProperty("bytes_per_pixel", static_cast<int>((large - small) / pixels));
 }
 
@@ -64,7 +64,7 @@ TEST(Memory, FramesTakeNoMore) {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "the sanitizer keeps what was freed";
 #endif
-    constexpr double most = 64e6;  // of ten frames; single commands differ by some 5 MB
+    constexpr double max = 64e6;  // of ten frames; single commands differ by some 5 MB
     const Folder scratch;
     for (const char* const scene : {"builtin:transmission", "builtin:layers"}) {
         const auto render = [&](const char* frames) {
@@ -73,7 +73,7 @@ TEST(Memory, FramesTakeNoMore) {
                           "--size", "64x64", "-o", "lit.exr", "--force", "-q"});
         };
         const double few = render("2"), many = render("12");
-        EXPECT_LT(many - few, most) << scene << ": " << few << " bytes, then " << many;
+        EXPECT_LT(many - few, max) << scene << ": " << few << " bytes, then " << many;
     }
 }
 

@@ -30,9 +30,9 @@ const json& named(const json& list, const char* key, std::string_view name) {
 }
 
 double largest(const json& values) {
-    double most = 0;
-    for (const json& value : values) most = std::max(most, std::abs(value.get<double>()));
-    return most;
+    double max = 0;
+    for (const json& value : values) max = std::max(max, std::abs(value.get<double>()));
+    return max;
 }
 
 // Every term of lit is counted exactly once. The residual is the rounding of float32 sums; for the

@@ -258,11 +258,11 @@ TEST(ReferenceTool, KilledItGoesOnAsWell) {
 // Kills the tool once it has stored `least` tiles in a file that is not among `before`. Returns that file,
 // or an empty path if the tool ended first.
 fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::path>& before,
-                     std::size_t least) {
+                     std::size_t min) {
     fs::path own;
     EXPECT_TRUE(soon([&] {
         for (const fs::path& file : keptIn(folder))
-            if (std::ranges::count(before, file) == 0 && tilesIn(file).size() >= least) own = file;
+            if (std::ranges::count(before, file) == 0 && tilesIn(file).size() >= min) own = file;
         return !own.empty() || tool.ended();
     })) << tool.err();
     if (tool.ended()) return {};

@@ -229,7 +229,7 @@ TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
     for (int round = 0; kills < 20; ++round) {
         ASSERT_LT(round, 80);
         const std::string out = fmt::format("cut-{}", round);
-        std::size_t most = 0;  // scenes finished when it was killed
+        std::size_t max = 0;  // scenes finished when it was killed
         for (;;) {
             // A run killed after its report, while removing the scenes' files, leaves the rest of them.
             const bool ended_before = fs::exists(folder / out);
@@ -245,9 +245,9 @@ TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
                 ++resumed;
                 there =
                     static_cast<std::size_t>(std::stoi(cut.err().substr(cut.err().rfind(' ', at - 1) + 1)));
-                EXPECT_TRUE(there >= most || ended_before) << "none is drawn again";
+                EXPECT_TRUE(there >= max || ended_before) << "none is drawn again";
             }
-            most = std::max(most, there);
+            max = std::max(max, there);
             if (!WIFSIGNALED(cut.wait())) {
                 EXPECT_EQ(WEXITSTATUS(cut.wait()), 0) << cut.err();
                 break;

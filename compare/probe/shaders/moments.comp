@@ -30,6 +30,6 @@ void main() {
         case 3:  // the light, moments, depth -> visibility
             out1(0, visibilityOfMoments(in4(6), in1(10), lightAt(0)));
             break;
-        case 4: out1(0, least4MomentShadow(in4(0), in1(4), in1(5))); break;
+        case 4: out1(0, min4MomentShadow(in4(0), in1(4), in1(5))); break;
     }
 }

@@ -62,7 +62,7 @@ uint sumOf(const uint pixel, const uint sum) { return (list_of.layers + sum) * l
 uint counter(const uint number) { return (list_of.layers + FRAGMENT_SUMS) * listedPixels() + number; }
 
 void addToSum(const uint pixel, const uint sum, const float value) {
-    float limited = clamp(value, -FRAGMENT_SUM_MOST, FRAGMENT_SUM_MOST);
+    float limited = clamp(value, -FRAGMENT_SUM_MAX, FRAGMENT_SUM_MAX);
     atomicAdd(fragment_keys[sumOf(pixel, sum)], uint64_t(int64_t(limited / FRAGMENT_SUM_UNIT)));
 }
 

@@ -6,8 +6,8 @@
 #include "shaders/lib/geometry/draw.glsl"
 #include "shaders/lib/geometry/position.glsl"
 
-float opticalDepth(const float opacity, const float most) {
-    return opacity < 1.0 ? min(-log(1.0 - opacity), most) : most;
+float opticalDepth(const float opacity, const float largest) {
+    return opacity < 1.0 ? min(-log(1.0 - opacity), largest) : largest;
 }
 
 // 0 at the view's nearest blended surface, 1 at the farthest. Linear in the logarithm of the distance

@@ -92,21 +92,21 @@ struct AirRay {
 AirRay airRay(const Haze h, const float height, const vec3 away, const float reach, const bool endless) {
     AirRay ray = AirRay(height, away.y, reach, HAZE_OPAQUE_METRES, 0.0, away.y > 0.0);
     float here = exp(clamp(-height * h.inverse_height, -87.0, 60.0));
-    float most = HAZE_ENDLESS_DEPTH / h.extinction.x;
+    float largest = HAZE_ENDLESS_DEPTH / h.extinction.x;
     if (!endless)
         ray.air = airAlong(height, away.y * reach, reach, h.inverse_height);
     else if (ray.climbs)
         ray.air = airBeyond(height, away.y, h.inverse_height);
     if (ray.climbs) {
         ray.low = here;
-    } else if (ray.air <= most) {
+    } else if (ray.air <= largest) {
         ray.low = exp(clamp(-(height + away.y * reach) * h.inverse_height, -87.0, 60.0));
     } else {
-        ray.air = most;
-        float more = most * (-away.y * h.inverse_height);
+        ray.air = largest;
+        float more = largest * (-away.y * h.inverse_height);
         ray.low = min(here + more, 1e26);
         float z = more / ray.low, fall = height + log(ray.low) / h.inverse_height;
-        ray.reach = z > 0.5 ? fall / -away.y : most / ray.low * logRatio(z);
+        ray.reach = z > 0.5 ? fall / -away.y : largest / ray.low * logRatio(z);
     }
     return ray;
 }

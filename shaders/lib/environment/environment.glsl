@@ -49,9 +49,9 @@ vec3 levelRadiance(float level, const vec2 place) {
 
 // Level for a GGX width; level 0 has the smallest width that is shaded.
 float specularLevel(const float alpha) {
-    float first = log2(ENVIRONMENT_FIRST_ALPHA), least = 2.0 * log2(MIN_PERCEPTUAL_ROUGHNESS);
+    float first = log2(ENVIRONMENT_FIRST_ALPHA), smallest = 2.0 * log2(MIN_PERCEPTUAL_ROUGHNESS);
     float octaves = log2(alpha);
-    return octaves < first ? (octaves - least) / (first - least)
+    return octaves < first ? (octaves - smallest) / (first - smallest)
                            : 1.0 + float(ENVIRONMENT_LEVELS_AN_OCTAVE) * (octaves - first);
 }
 

@@ -33,8 +33,8 @@ vec3 skyTexel(ivec2 p, const ivec2 size) {
 // W/(sr m^2); `d` unit, in the environment's axes. Bilinear between pixel centres.
 vec3 skyRadiance(const vec3 d) {
     ivec2 size = textureSize(sky, 0);
-    float across = lengthOf(d.xz), least = max(across, 1e-30);
-    float azimuth = angleOf(-d.z / least, abs(d.x) / least), polar = angleOf(d.y, across);
+    float across = lengthOf(d.xz), smallest = max(across, 1e-30);
+    float azimuth = angleOf(-d.z / smallest, abs(d.x) / smallest), polar = angleOf(d.y, across);
     azimuth = d.x < 0.0 ? -azimuth : azimuth;
     vec2 at = vec2(azimuth * (0.5 * INVERSE_PI) + 0.5, polar * INVERSE_PI) * vec2(size) - 0.5;
     vec2 corner = floor(at), f = at - corner;

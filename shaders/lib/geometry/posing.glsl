@@ -147,7 +147,7 @@ void addJoint(inout Joined sum, const mat4x3 matrix, const float weight, const b
     if (!of_joints) return;
     Axes a = axesOf(matrix);
     float determinant = abs(dot(a.x, crossProduct(a.y, a.z)));
-    float inverse = min(a.scale / max(determinant, LEAST_DETERMINANT), MOST_INVERSE);
+    float inverse = min(a.scale / max(determinant, MIN_DETERMINANT), MAX_INVERSE);
     if (sum.unit == 0.0 && weight > 0.0) sum.unit = inverse;
     float share = sum.unit > 0.0 ? weight * (inverse / sum.unit) : 0.0;
     sum.normal += share * byCofactors(a, normal);

@@ -63,9 +63,9 @@ AreaView areaViewOf(const Brdf brdf, const vec3 n, const vec3 v, const LtcCell c
     a.surface = transpose(mat3(x, crossProduct(n, x), n));
     float sin2 = max(1.0 - brdf.n_dot_v * brdf.n_dot_v, 0.0);
     float m2 = brdf.n_dot_v * brdf.n_dot_v + brdf.alpha * brdf.alpha * sin2;
-    float least = evenShare(cell, LTC_LAYER_F0, 1.0);
+    float smallest = evenShare(cell, LTC_LAYER_F0, 1.0);
     float even = evenShare(cell, dot(brdf.f0, vec3(1.0 / 3.0)), dot(brdf.f90, vec3(1.0 / 3.0)));
-    float towards_even = clamp((even - least) / max(1.0 - least, 1e-6), 0.0, 1.0);
+    float towards_even = clamp((even - smallest) / max(1.0 - smallest, 1e-6), 0.0, 1.0);
     vec4 lobe = cell.layer + (cell.even - cell.layer) * towards_even;
     a.ltc.inverse_a = m2 / (lobe.x * 2.0 * brdf.alpha);
     a.ltc.inverse_c = 1.0 / (lobe.y * 2.0 * brdf.alpha);
@@ -110,7 +110,7 @@ AreaIncident fromAreaLight(const Light light, const AreaLight shape, const vec3 
 
 // Largest reflection of a small light, as a multiple of `sky`. The fit is poor where the light's mean
 // direction is far from the centre of the lobe.
-const float LTC_MOST_GAIN = 4.0;
+const float LTC_MAX_GAIN = 4.0;
 
 // The sheen as if all light came from its mean direction `l` (unit). `received`: irradiance over the
 // radiance of the light, with the cosine.
@@ -150,7 +150,7 @@ AreaLobes fromFactors(const AreaView a, const vec3 plain, const vec3 lobe, const
     float s2 = dot(s, s);
     vec3 there = (a.brdf.f0 + (a.brdf.f90 - a.brdf.f0) * schlickWeight(0.5 * sqrt(s2))) *
                  (specularLobe(a.brdf, a.n, s, s2, n_dot_l) * n_dot_l / max(density, 1e-20));
-    there = min(there, LTC_MOST_GAIN * a.sky);
+    there = min(there, LTC_MAX_GAIN * a.sky);
     vec3 reflected = min(blend(there, a.sky, sqrt(sqrt(share))) * share, a.sky);
     vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
     vec3 from_lobe = reflected * radiance;

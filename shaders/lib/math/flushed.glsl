@@ -4,8 +4,8 @@
 #ifndef FLUSHED_GLSL
 #define FLUSHED_GLSL
 
-const float LEAST_NORMAL = 1.17549435e-38;  // 2^-126
+const float MIN_NORMAL = 1.17549435e-38;  // 2^-126
 
-vec3 flushed(const vec3 v) { return mix(v, vec3(0.0), lessThan(abs(v), vec3(LEAST_NORMAL))); }
+vec3 flushed(const vec3 v) { return mix(v, vec3(0.0), lessThan(abs(v), vec3(MIN_NORMAL))); }
 
 #endif

@@ -18,9 +18,9 @@ const float SIMILAR_PLANE = 0.01;
 // pixel spans much of a surface, and light on it changes.
 const float SIMILAR_SPAN = 1.5;
 
-bool within(const vec3 a, const vec3 b, const float most) {
+bool within(const vec3 a, const vec3 b, const float largest) {
     vec3 d = abs(a - b);
-    return max(d.x, max(d.y, d.z)) <= most;
+    return max(d.x, max(d.y, d.z)) <= largest;
 }
 
 bool alikeRadiance(const vec3 a, const vec3 b) {

@@ -33,9 +33,9 @@ vec2 cubicRow(const uint first, const vec4 w) {
 }
 
 vec2 tabledAlbedo(const float alpha, const float n_dot_v) {
-    float k = 2.0 * alpha, least = sqrt(MIN_PERCEPTUAL_ROUGHNESS);
+    float k = 2.0 * alpha, smallest = sqrt(MIN_PERCEPTUAL_ROUGHNESS);
     float x = ALBEDO_BLEND * sqrt(n_dot_v * (1.0 + k) / (n_dot_v + k)) + (1.0 - ALBEDO_BLEND) * sqrt(n_dot_v);
-    float y = (sqrt(sqrt(alpha)) - least) / (1.0 - least);
+    float y = (sqrt(sqrt(alpha)) - smallest) / (1.0 - smallest);
     float tx, ty;
     uint column = cubicFirst(x, ALBEDO_TABLE_WIDTH, tx), row = cubicFirst(y, ALBEDO_TABLE_HEIGHT, ty);
     vec4 across = cubicWeights(tx), down = cubicWeights(ty);

@@ -38,9 +38,9 @@ float sheenRow(const uint first, const vec4 w) {
 
 // E(n.v) from the table of shared/contract/albedo.h.
 float tabledSheen(const float roughness, const float n_dot_v, const float lambda_v) {
-    float k = SHEEN_TABLE_WIDENS * roughness, least = sqrt(sqrt(MIN_PERCEPTUAL_ROUGHNESS));
+    float k = SHEEN_TABLE_WIDENS * roughness, smallest = sqrt(sqrt(MIN_PERCEPTUAL_ROUGHNESS));
     float x = 0.5 * (sqrt(n_dot_v * (1.0 + k) / (n_dot_v + k)) + sqrt(n_dot_v));
-    float y = (sqrt(sqrt(roughness)) - least) / (1.0 - least);
+    float y = (sqrt(sqrt(roughness)) - smallest) / (1.0 - smallest);
     float tx, ty;
     uint column = cubicFirst(x, SHEEN_TABLE_SIZE, tx), row = cubicFirst(y, SHEEN_TABLE_SIZE, ty);
     vec4 across = cubicWeights(tx), down = cubicWeights(ty);

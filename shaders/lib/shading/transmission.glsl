@@ -54,8 +54,8 @@ vec3 lightBehind(const Surface s, const vec3 v, const vec2 pixel) {
     level *= s.ior > 0.0 ? clamp(2.0 * s.ior - 2.0, 0.0, 1.0) : 1.0;
     // The F line's index exceeds the C line's by (ior - 1) / Abbe number; dispersion is 20 / Abbe number.
     float half_spread = spreads ? (s.ior - 1.0) * 0.025 * s.dispersion : 0.0;
-    float least = spreads ? max(s.ior - half_spread, 1.0) : s.ior;
-    vec2 red = pixelBehind(s, v, least, pixel), green = pixelBehind(s, v, s.ior, pixel);
+    float smallest = spreads ? max(s.ior - half_spread, 1.0) : s.ior;
+    vec2 red = pixelBehind(s, v, smallest, pixel), green = pixelBehind(s, v, s.ior, pixel);
     vec2 blue = pixelBehind(s, v, s.ior + half_spread, pixel);
     vec3 behind = backdropAt(green, level);
     if (red != blue) behind = vec3(backdropAt(red, level).r, behind.g, backdropAt(blue, level).b);

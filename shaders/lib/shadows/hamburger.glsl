@@ -4,7 +4,7 @@
 #ifndef HAMBURGER_GLSL
 #define HAMBURGER_GLSL
 
-const float LEAST_DIVISOR = 1e-20;
+const float MIN_DIVISOR = 1e-20;
 
 struct ThreePlaces {
     vec2 other;    // the two other points, other.x <= other.y
@@ -12,20 +12,20 @@ struct ThreePlaces {
     float at;      // weight of the given one
 };
 
-// `b`: means of d, d^2, d^3, d^4; their Hankel matrix must not be near singular. `least_variance`:
+// `b`: means of d, d^2, d^3, d^4; their Hankel matrix must not be near singular. `min_variance`:
 // smallest variance of d.
-ThreePlaces threePlaces(const vec4 b, const float depth, const float least_variance) {
+ThreePlaces threePlaces(const vec4 b, const float depth, const float min_variance) {
     // The Hankel matrix of (1, b) is L D L^T.
     float l32_d22 = b.z - b.x * b.y;
-    float d22 = max(b.y - b.x * b.x, least_variance);
-    float d33_d22 = max((b.w - b.y * b.y) * d22 - l32_d22 * l32_d22, LEAST_DIVISOR);
+    float d22 = max(b.y - b.x * b.x, min_variance);
+    float d33_d22 = max((b.w - b.y * b.y) * d22 - l32_d22 * l32_d22, MIN_DIVISOR);
     float l32 = l32_d22 / d22;
     // Its inverse times (1, depth, depth^2): a polynomial whose roots are the two other points.
     vec3 c = vec3(1.0, depth - b.x, 0.0);
     c.z = (depth * depth - b.y - l32 * c.y) * (d22 / d33_d22);
     c.y = c.y / d22 - l32 * c.z;
     c.x = 1.0 - c.y * b.x - c.z * b.y;
-    float scale = abs(c.z) > LEAST_DIVISOR ? c.z : LEAST_DIVISOR, p = 0.5 * c.y / scale;
+    float scale = abs(c.z) > MIN_DIVISOR ? c.z : MIN_DIVISOR, p = 0.5 * c.y / scale;
     float root = sqrt(max(p * p - c.x / scale, 0.0));
     vec2 z = vec2(-p - root, -p + root);
     // A point's weight: the mean of the polynomial that vanishes at the other two, over its value at the

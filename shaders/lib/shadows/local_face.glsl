@@ -34,13 +34,13 @@ vec3 onFace(const vec3 v, const uint face) {
 Receiver localReceiver(const vec3 p, const vec3 n, const float rounding, const LocalShadow light,
                        const LocalFace face) {
     float texel = 1.0 / face.texels;  // width at a depth of 1
-    float height = max(-dot(n, p), LEAST_SLOPE_COSINE * lengthOf(p));  // of the light above the plane
+    float height = max(-dot(n, p), MIN_SLOPE_COSINE * lengthOf(p));  // of the light above the plane
     // Rise of the plane from the surface to the filter's farthest texel, in texels, for a light one metre
     // above the plane and one metre away.
     float rise = (0.5 * float(feature_shadow_kernel) + 0.5) * (abs(n.x) + abs(n.y));
     float across = texel * p.z;  // texel width at the surface, m
     // The limits keep both offsets short of the light.
-    float aside = min(max(rise - MOST_LIFT * height / p.z, 0.0) * across, 0.5 * p.z);
+    float aside = min(max(rise - MAX_LIFT * height / p.z, 0.0) * across, 0.5 * p.z);
     float bias = min(light.bias * across + rounding, 0.25 * p.z);
     vec3 q = p + n * (aside + bias);
     float inverse = light.depth_scale / q.z;
@@ -52,7 +52,7 @@ Receiver localReceiver(const vec3 p, const vec3 n, const float rounding, const L
     // If a small tile does not fit the filter, it is read farther inside, on the same plane.
     r.depth = inverse + light.depth_offset + dot(r.slope, inside - texel_of_q);
     r.aside = inverse * aside / height;
-    r.most = max(MOST_LIFT * texel * inverse, rise * depth_of_texel - r.aside);
+    r.largest = max(MAX_LIFT * texel * inverse, rise * depth_of_texel - r.aside);
     r.highest = 1e30;  // all texels count
     r.counts = 1.0;
     return r;

@@ -28,18 +28,18 @@ float chebyshev(const float behind, const float variance) {
 // Largest fraction of the filter that may lie at or behind `depth`, after light-bleeding reduction. In
 // units of the receiver's w, or of the other warp's mean, so that no value leaves the range of float32.
 float momentVisibility(const vec4 moments, const float depth, const ShadowLight light) {
-    const float MOST = 1e30;  // of a variance
+    const float LARGEST = 1e30;  // of a variance
     float away = depthAway(depth, light.nearest), range = 1.0 - light.nearest;
     float per_w = exp(-light.exponent * away), mean = moments.x * per_w, square = moments.y * per_w * per_w;
     // Converts a variance of depth to one of w: dw = c (1 - nearest) w dd.
     float slope = light.exponent * range;
     float variance = max(square - mean * mean, light.min_variance * slope * slope);
-    float share = chebyshev(1.0 - mean, min(variance, MOST));
+    float share = chebyshev(1.0 - mean, min(variance, LARGEST));
     if (feature_shadows == SHADOWS_EVSM4) {
         float per_mean = 1.0 / moments.z, n = -exp(-light.negative * away) * per_mean;
         slope = light.negative * range * n;
         variance = max(moments.w * per_mean * per_mean - 1.0, light.min_variance * slope * slope);
-        share = min(share, chebyshev(1.0 - n, min(variance, MOST)));
+        share = min(share, chebyshev(1.0 - n, min(variance, LARGEST)));
     }
     return shareOf((share - light.bleed) / (1.0 - light.bleed));
 }

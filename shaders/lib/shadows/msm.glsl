@@ -30,14 +30,14 @@ vec4 momentsOfQuantised(const vec4 q) {
 // "Hamburger 4MSM"). A distribution on three points attains it. `bias` moves the moments, by more than
 // their rounding, towards a distribution whose Hankel matrix is far from singular. The result is in [0, 1]
 // for any moments.
-float least4MomentShadow(const vec4 moments, const float depth, const float bias) {
+float min4MomentShadow(const vec4 moments, const float depth, const float bias) {
     return shareOf(threePlaces(moments * (1.0 - bias) + vec4(0.5 * bias), depth, 1e-9).before);
 }
 
 // Visibility of a receiver at `depth` (as in the map), from the moments of feature_shadows.
 float visibilityOfMoments(const vec4 moments, const float depth, const ShadowLight light) {
     if (feature_shadows != SHADOWS_MSM4) return momentVisibility(moments, depth, light);
-    return 1.0 - least4MomentShadow(momentsOfQuantised(moments), depthAway(depth, 0.0), light.moment_bias);
+    return 1.0 - min4MomentShadow(momentsOfQuantised(moments), depthAway(depth, 0.0), light.moment_bias);
 }
 
 #endif

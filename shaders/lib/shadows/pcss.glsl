@@ -33,7 +33,7 @@ const vec2 GATHERED[4] = vec2[](vec2(0.5, 1.5), vec2(1.5, 1.5), vec2(1.5, 0.5), 
 // `cone`: radius in texels at a depth of 1. Texels up to the triangle's own plane are not blockers.
 vec2 blockerDistance(const Receiver r, const uint layer, const float cone, const float widest) {
     Blocks blocks = blocksAround(r.texel, clamp(2.0 * cone * (1.0 - r.depth), 1.0, widest));
-    float sum = 0.0, count = 0.0, least = 1.0;
+    float sum = 0.0, count = 0.0, smallest = 1.0;
     uvec2 rows = uvec2(0, blocks.side);
     EACH(rows) {
         uvec2 columns = uvec2(0, blocks.side);
@@ -47,13 +47,13 @@ vec2 blockerDistance(const Receiver r, const uint layer, const float cone, const
                                    lengthOf(offset) < cone * nearer + 0.5;
                 sum += blocks_disc ? nearer : 0.0;
                 count += blocks_disc ? 1.0 : 0.0;
-                least = blocks_disc ? min(least, nearer) : least;
+                smallest = blocks_disc ? min(smallest, nearer) : smallest;
             }
             NEXT(columns);
         }
         NEXT(rows);
     }
-    return count > 0.0 ? vec2(sum / count, least) : vec2(0.0);
+    return count > 0.0 ? vec2(sum / count, smallest) : vec2(0.0);
 }
 
 // Filters over a disc `width` texels wide around the receiver; texels at the rim count in part.
@@ -86,9 +86,9 @@ float softlyFiltered(const Surface s, const ShadowLight light, const Cascade cas
                      const uint layer) {
     float texels = cascade.texels_per_metre / light.depth_scale, cone = light.disc * texels;
     vec2 blocker = blockerDistance(r, layer, cone, light.widest);
-    float most = max(r.most, 0.5 * blocker.y), steepest = 2.0 * most / lengthOf(r.slope) - 1.0;
+    float largest = max(r.largest, 0.5 * blocker.y), steepest = 2.0 * largest / lengthOf(r.slope) - 1.0;
     float width = max(min(min(2.0 * cone * blocker.x, light.widest), steepest), float(feature_shadow_kernel));
-    Receiver soft = receiverOf(s, light, cascade, most * texels);
+    Receiver soft = receiverOf(s, light, cascade, largest * texels);
     return filteredDisc(soft, layer, width);
 }
 

@@ -43,7 +43,7 @@ float pageResidency(const vec3 position) {
 // its triangle. With the plane, a surface at a grazing angle to the light does not shadow itself at any
 // texel of a filter. Nothing is derived from neighbouring pixels.
 //
-// Texels towards which the plane rises are compared with the plane, up to MOST_LIFT texels above the
+// Texels towards which the plane rises are compared with the plane, up to MAX_LIFT texels above the
 // surface. Farther up the triangle may have ended, and another surface there would be mistaken for it.
 // Texels where the plane rises more do not count, and they fade out before that. Texels towards which it
 // falls remain, and no texel beside the filter is read for them.
@@ -52,20 +52,20 @@ struct Receiver {
     float depth;
     vec2 slope;     // of depth, per texel
     float aside;    // fall of the plane's depth if the surface was moved sideways
-    float most;     // largest rise of the plane that is compared, depth
+    float largest;     // largest rise of the plane that is compared, depth
     float highest;  // rise of the plane at which a texel no longer counts, depth
     float counts;   // weight of a texel per depth below `highest`
 };
 
-const float MOST_LIFT = 2.0;
+const float MAX_LIFT = 2.0;
 // Smallest cosine between geometric normal and light that slopes use: a steeper plane crosses the whole
 // scene within few texels.
-const float LEAST_SLOPE_COSINE = 1e-3;
+const float MIN_SLOPE_COSINE = 1e-3;
 
 // `most`: largest rise of the plane above the surface, texels.
-Receiver receiverOf(const Surface s, const ShadowLight light, const Cascade cascade, const float most) {
+Receiver receiverOf(const Surface s, const ShadowLight light, const Cascade cascade, const float largest) {
     vec2 across = vec2(dot(s.geometric_normal, light.x), dot(s.geometric_normal, light.y));
-    float cosine = max(dot(s.geometric_normal, light.to_light), LEAST_SLOPE_COSINE);
+    float cosine = max(dot(s.geometric_normal, light.to_light), MIN_SLOPE_COSINE);
     float texel = 1.0 / cascade.texels_per_metre;
     float bias = cascade.bias * texel + light.rounding * lengthOf(s.position);
     vec3 position = s.position + s.geometric_normal * bias;
@@ -76,15 +76,15 @@ Receiver receiverOf(const Surface s, const ShadowLight light, const Cascade casc
     r.depth = dot(position, light.to_light) * light.depth_scale + light.depth_offset;
     r.slope = across * (-depth_of_texel / cosine);
     r.aside = 0.0;
-    r.most = most * depth_of_texel;
-    r.highest = r.most;
+    r.largest = largest * depth_of_texel;
+    r.highest = r.largest;
     r.counts = 1.0 / depth_of_texel;
     return r;
 }
 
 // 1 if the map's texel at `texel` (its centre) has nothing nearer to the light than the receiver.
 float seesLight(const Receiver r, const float stored, const vec2 texel) {
-    float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.most);
+    float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.largest);
     return stored > r.depth + lift ? 0.0 : 1.0;
 }
 
@@ -139,7 +139,7 @@ float filteredMoments(const Receiver r, const uint layer, const ShadowLight ligh
 
 float cascadeVisibility(const Surface s, const ShadowLight light, const uint layer) {
     Cascade cascade = cascadeAt(layer);
-    Receiver r = receiverOf(s, light, cascade, MOST_LIFT);
+    Receiver r = receiverOf(s, light, cascade, MAX_LIFT);
     if (feature_shadows == SHADOWS_PCF) return filtered(shadow_map, r, vec2(0.0), layer);
     if (feature_shadows == SHADOWS_PCSS) return softlyFiltered(s, light, cascade, r, layer);
     return filteredMoments(r, layer, light);
@@ -148,7 +148,7 @@ float cascadeVisibility(const Surface s, const ShadowLight light, const uint lay
 float clipmapVisibility(const Surface s, const ShadowLight light) {
     ClipmapPage page = servingPage(light, s.position);
     Cascade level = clipmapLevel(uint(page.level));
-    Receiver r = receiverOf(s, light, level, MOST_LIFT);
+    Receiver r = receiverOf(s, light, level, MAX_LIFT);
     return filtered(shadow_map, r, page.shift, 0);
 }
 

@@ -266,9 +266,9 @@ void addSheen(const Material m, inout Surface s) {
 void addFilm(const Material m, inout Surface s) {
     s.iridescence = m.iridescence;
     if (on(feature_iridescence_texture)) s.iridescence *= TEXEL(iridescence).r;
-    float thickness = m.iridescence_thickness_most;
+    float thickness = m.iridescence_thickness_max;
     if (on(feature_iridescence_thickness_texture))
-        thickness = blend(m.iridescence_thickness_least, m.iridescence_thickness_most,
+        thickness = blend(m.iridescence_thickness_min, m.iridescence_thickness_max,
                           TEXEL(iridescence_thickness).g);
     bool there = s.iridescence > 0.0;
     s.iridescence_ior = there ? m.iridescence_ior : 0.0;

@@ -41,8 +41,8 @@ float steepenedRoughness(const float roughness, const vec3 dn_dx, const vec3 dn_
     if (dot(dn_dx, dn_dx) + dot(dn_dy, dn_dy) <= rounded) return roughness;
     mat3 image = mat3(right, down, crossProduct(right, down));
     vec3 change = max(abs(dn_dx * image), abs(dn_dy * image));
-    float most = max(change.x, max(change.y, change.z));
-    return min(max(roughness, MIN_PERCEPTUAL_ROUGHNESS) + most, 1.0);
+    float largest = max(change.x, max(change.y, change.z));
+    return min(max(roughness, MIN_PERCEPTUAL_ROUGHNESS) + largest, 1.0);
 }
 
 #endif

@@ -15,7 +15,7 @@ using Point = std::array<double, N>;
 // A local minimum of f near `start`; the initial simplex has edges of `step`. Stops when the values at the
 // corners agree to `relative` of the smallest, or after `most` steps.
 template <std::size_t N, class F>
-Point<N> nelderMead(const F& f, const Point<N>& start, double step, double relative, int most) {
+Point<N> nelderMead(const F& f, const Point<N>& start, double step, double relative, int max) {
     struct Corner {
         Point<N> x;
         double value;
@@ -29,7 +29,7 @@ Point<N> nelderMead(const F& f, const Point<N>& start, double step, double relat
     for (int n = 0;; ++n) {
         std::ranges::stable_sort(simplex, {}, &Corner::value);
         Corner &best = simplex.front(), &worst = simplex.back();
-        if (n >= most || worst.value - best.value <= relative * best.value) return best.x;
+        if (n >= max || worst.value - best.value <= relative * best.value) return best.x;
 
         Point<N> middle{};  // of all corners but the worst
         for (std::size_t i = 0; i < N; ++i)

@@ -24,7 +24,7 @@ namespace {
 // A number after the name, as in "spheres?lights=64".
 struct Parameter {
     std::string_view name;
-    std::uint32_t default_value, most;  // default and largest value
+    std::uint32_t default_value, max;  // default and largest value
 };
 using Numbers = std::span<const std::uint32_t>;  // one per parameter, in order
 
@@ -160,9 +160,9 @@ std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, 
         const std::string_view digits = one.substr(key.size() + 1);
         std::uint32_t& number = numbers[static_cast<std::size_t>(known - row.parameters.begin())];
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-        if (error != std::errc() || end != digits.data() + digits.size() || number > known->most)
+        if (error != std::errc() || end != digits.data() + digits.size() || number > known->max)
             fail("builtin:" + name, fmt::format("'{}' is not a number of {}; it takes 0 to {}", digits,
-                                                known->name, known->most));
+                                                known->name, known->max));
     }
     return numbers;
 }

@@ -55,7 +55,7 @@ void sheen(Material& m, const glm::vec3& color, float roughness) {
 void film(Material& m, float weight, float ior, float thickness) {
     m.iridescence = weight;
     m.iridescence_ior = ior;
-    m.iridescence_thickness_most = thickness;
+    m.iridescence_thickness_max = thickness;
 }
 void slab(Material& m, float thickness) {
     m.transmission = 1;
@@ -103,7 +103,7 @@ const BallRow clothOrFilm[] = {
          sheen(m, glm::vec3(1 - 0.5f * t), 0.3f + 0.7f * t);
          m.sheen_color_texture = m.sheen_roughness_texture = maps.sheen;
          film(m, 1 - 0.5f * t, 1.5f + t, 800);
-         m.iridescence_thickness_least = 400 * t;
+         m.iridescence_thickness_min = 400 * t;
          m.iridescence_texture = m.iridescence_thickness_texture = maps.film;
      }},
     {"all", darkBase,

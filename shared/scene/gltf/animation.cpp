@@ -287,11 +287,11 @@ private:
             for (std::size_t i = k; i < k + width; ++i) {
                 const double x = keys.values[i];
                 const bool gap = target.part == AnimatedPart::ior && x > 0 && x < 1;
-                if (x >= properties.least && x <= properties.most && !gap) continue;
+                if (x >= properties.min && x <= properties.max && !gap) continue;
                 scene.notes.push_back(
                     gap ? fmt::format("{}: ior {:g} is not 0 or at least 1: 1 is used", who, x)
                         : fmt::format("{}: {:g} is outside {:g} to {:g}: the nearest value is used", who, x,
-                                      properties.least, properties.most));
+                                      properties.min, properties.max));
                 return;
             }
     }

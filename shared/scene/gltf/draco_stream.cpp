@@ -64,9 +64,8 @@ protected:
         if (!sequential) {
             // Each set of seams gets a corner table. Encoders write one per attribute with seams.
             const std::size_t tables = next<std::uint8_t>(ahead);
-            const std::size_t most = std::max<std::size_t>(expected_.attributes, 16);
-            if (tables > most)
-                fail(fmt::format("its stream has {} sets of seams, more than {}", tables, most));
+            const std::size_t max = std::max<std::size_t>(expected_.attributes, 16);
+            if (tables > max) fail(fmt::format("its stream has {} sets of seams, more than {}", tables, max));
         }
         return Decoder::DecodeConnectivity();
     }

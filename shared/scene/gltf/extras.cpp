@@ -113,7 +113,7 @@ Lightmap lightmapOf(const Json& material, std::size_t textures, const std::strin
             };
             if (!fields.find("index")) fields.fail("index", "is missing; give a texture");
             const double intensity =
-                fields.number("intensity", 1, 0, propertiesOf(AnimatedPart::lightmap_intensity).most);
+                fields.number("intensity", 1, 0, propertiesOf(AnimatedPart::lightmap_intensity).max);
             const int texcoord = whole("texCoord", 1, 2);
             result = {whole("index", 0, static_cast<double>(textures)), texcoord, intensity};
         });

@@ -118,11 +118,11 @@ void checkVersion(const Json& document) {
             fail(fmt::format("asset: {} is {}, not a string; write \"2.0\"", key, oneLine(value.dump())));
         return value.is_string() ? value.get<std::string>() : std::string();
     };
-    const std::string version = text("version"), least = text("minVersion");
+    const std::string version = text("version"), min = text("minVersion");
     if (version.empty()) fail("asset: has no version");
     if (!version.starts_with("2.")) fail(fmt::format("asset: version {}, not 2.0", oneLine(version)));
-    if (!least.empty() && isBeyond(least))
-        fail(fmt::format("asset: minVersion {} is not supported; 2.0 is", oneLine(least)));
+    if (!min.empty() && isBeyond(min))
+        fail(fmt::format("asset: minVersion {} is not supported; 2.0 is", oneLine(min)));
 }
 
 void checkRequired(const Json& document) {

@@ -30,14 +30,14 @@ using Json = nlohmann::json;
 constexpr const char* imageLightExtension = "EXT_lights_image_based";
 
 // As for other lights' intensity: its product with any texel is finite.
-constexpr double mostIntensity = 1e12;
+constexpr double maxImageIntensity = 1e12;
 // Six faces and their lat-long image take 700 MiB, as much as an image of 8192 x 4096.
 constexpr int largestFace = 2048;
 
 ImageLight lightOf(const Json& json, std::size_t images, const std::string& who) {
     const JsonFields fields(json, who);
     ImageLight light{.who = who};
-    light.intensity = fields.number("intensity", 1, 0, mostIntensity);
+    light.intensity = fields.number("intensity", 1, 0, maxImageIntensity);
     if (fields.find("rotation")) {
         std::array<double, 4> r{};
         fields.numbers("rotation", r);

@@ -77,12 +77,12 @@ private:
                                 *glossyName = "KHR_materials_pbrSpecularGlossiness",
                                 *strengthName = "KHR_materials_emissive_strength";
 
-    double bounded(const std::string& what, double x, double least, double most) {
-        const double inside = std::clamp(x, least, most);
+    double bounded(const std::string& what, double x, double min, double max) {
+        const double inside = std::clamp(x, min, max);
         if (inside != x)
             // All digits, because 1.0000001 is outside as well.
             scene_.notes.push_back(fmt::format("{}: {} {} is outside {:g} to {:g}: {:g} is used", who_, what,
-                                               x, least, most, inside));
+                                               x, min, max, inside));
         return inside;
     }
 
@@ -108,13 +108,13 @@ private:
         std::vector<double> numbers =
             value.is_array() ? value.get<std::vector<double>>() : std::vector{value.get<double>()};
         if (*p.part == AnimatedPart::ior && numbers[0] != 0) {
-            animated.least = 1;
+            animated.min = 1;
             if (numbers[0] < 1)
                 scene_.notes.push_back(
                     fmt::format("{}: ior {} is not 0 or at least 1: 1 is used", who_, numbers[0]));
-            numbers[0] = std::max(numbers[0], animated.least);
+            numbers[0] = std::max(numbers[0], animated.min);
         }
-        for (double& x : numbers) x = bounded(what, x, animated.least, animated.most);
+        for (double& x : numbers) x = bounded(what, x, animated.min, animated.max);
         setPart(m_, parts_, *p.part, slot, numbers);
     }
 
@@ -174,16 +174,15 @@ private:
     }
 
     void readEmission() {
-        constexpr double most = std::numeric_limits<float>::max();
+        constexpr double max = std::numeric_limits<float>::max();
         const std::vector<double> factor = file_.value("emissiveFactor", std::vector<double>(3));
         if (const Json* e = extension(file_, strengthName))
-            parts_.emissive_strength =
-                bounded("emissiveStrength", e->value("emissiveStrength", 1.0), 0, most);
+            parts_.emissive_strength = bounded("emissiveStrength", e->value("emissiveStrength", 1.0), 0, max);
         for (int c = 0; c < 3; ++c) {
             const double own = factor[static_cast<std::size_t>(c)], emitted = own * parts_.emissive_strength;
-            if (!(emitted <= most))
+            if (!(emitted <= max))
                 fail(who_, fmt::format("emits {:g}, more than a float can store", emitted));
-            m_.emissive[c] = static_cast<float>(bounded("emissiveFactor", emitted, 0, most));
+            m_.emissive[c] = static_cast<float>(bounded("emissiveFactor", emitted, 0, max));
             parts_.emissive[c] = std::max(own, 0.0);
         }
     }

@@ -51,13 +51,13 @@ const tinygltf::Primitive& fileOf(const Model& model, const Task& task) {
 void checkSize(const Model& model, std::vector<Task>& tasks) {
     std::size_t decoded = 0;
     const std::size_t encoded = model.dataBytes();
-    const std::size_t most = FREE_DECODED_BYTES + encoded * DECODED_BYTES_PER_BYTE;
+    const std::size_t max = FREE_DECODED_BYTES + encoded * DECODED_BYTES_PER_BYTE;
     for (Task& task : tasks) {
         task.fault = faultOf([&] { decoded += decodedBytes(model, fileOf(model, task), task.who()); });
-        if (decoded > most)
+        if (decoded > max)
             fail(task.who(),
                  fmt::format("{} bytes of geometry so far from {} bytes of buffers; the limit is {}", decoded,
-                             encoded, most));
+                             encoded, max));
     }
 }
 

@@ -103,9 +103,8 @@ std::vector<bool> reached(const Model& model, int index, const std::vector<int>&
 // ---- what hangs on nodes -----------------------------------------------------------------------------
 
 // Clamps `x`, with a note if that changes it.
-double bounded(const std::string& who, const char* what, double x, double least, double most,
-               NoteList& notes) {
-    const double inside = std::clamp(x, least, most);
+double bounded(const std::string& who, const char* what, double x, double min, double max, NoteList& notes) {
+    const double inside = std::clamp(x, min, max);
     if (inside != x) notes.add(fmt::format("{}: {} {}: {:g} is used", who, what, x, inside));
     return inside;
 }
@@ -129,13 +128,13 @@ Light readLight(const Json& file, const std::string& who, NoteList& notes) {
     light.kind = type == "directional" ? LightKind::directional
                  : type == "spot"      ? LightKind::spot
                                        : LightKind::point;
-    constexpr double most = std::numeric_limits<float>::max();
+    constexpr double max = std::numeric_limits<float>::max();
     if (const Json* color = memberOf(file, "color"))
         for (int c = 0; c < 3; ++c)
             light.color[c] = static_cast<float>(
-                bounded(who, "color", (*color)[static_cast<std::size_t>(c)], 0, most, notes));
+                bounded(who, "color", (*color)[static_cast<std::size_t>(c)], 0, max, notes));
     light.intensity =
-        static_cast<float>(bounded(who, "intensity", file.value("intensity", 1.0), 0, most, notes));
+        static_cast<float>(bounded(who, "intensity", file.value("intensity", 1.0), 0, max, notes));
     const double range = file.value("range", 0.0);  // 0: unlimited
     if (range < 0) notes.add(fmt::format("{}: range {}: ignored", who, range));
     if (range > 0 && light.kind != LightKind::directional) light.range = static_cast<float>(range);

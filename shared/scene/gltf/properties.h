@@ -44,7 +44,7 @@ struct Property {
     Kind kind;
     bool required = false;
     double min = 0, max = 0;
-    std::size_t least = 0, most = 0;
+    std::size_t min_count = 0, max_count = 0;
     // The collection that an index refers to; for objects, the word for one of them in messages.
     std::string_view of = {};
     std::string_view choices = {};  // separated by spaces
@@ -64,8 +64,13 @@ constexpr Property whole(std::string_view key, double min = 0, double max = maxI
 constexpr Property number(std::string_view key, double min = -any, double max = any) {
     return {.key = key, .kind = Kind::number, .min = min, .max = max};
 }
-constexpr Property numbers(std::string_view key, std::size_t least, std::size_t most) {
-    return {.key = key, .kind = Kind::numbers, .min = -any, .max = any, .least = least, .most = most};
+constexpr Property numbers(std::string_view key, std::size_t min_count, std::size_t max_count) {
+    return {.key = key,
+            .kind = Kind::numbers,
+            .min = -any,
+            .max = any,
+            .min_count = min_count,
+            .max_count = max_count};
 }
 constexpr Property numbers(std::string_view key, std::size_t count) {
     return numbers(key, count, count);
@@ -207,13 +212,12 @@ constexpr Property anisotropy[] = {animated("anisotropyStrength", Part::anisotro
 constexpr Property sheen[] = {
     animated("sheenColorFactor", Part::sheen_color), animated("sheenRoughnessFactor", Part::sheen_roughness),
     map("sheenColorTexture", gpu::SLOT_sheen_color), map("sheenRoughnessTexture", gpu::SLOT_sheen_roughness)};
-constexpr Property iridescence[] = {
-    animated("iridescenceFactor", Part::iridescence),
-    animated("iridescenceIor", Part::iridescence_ior),
-    animated("iridescenceThicknessMinimum", Part::iridescence_thickness_least),
-    animated("iridescenceThicknessMaximum", Part::iridescence_thickness_most),
-    map("iridescenceTexture", gpu::SLOT_iridescence),
-    map("iridescenceThicknessTexture", gpu::SLOT_iridescence_thickness)};
+constexpr Property iridescence[] = {animated("iridescenceFactor", Part::iridescence),
+                                    animated("iridescenceIor", Part::iridescence_ior),
+                                    animated("iridescenceThicknessMinimum", Part::iridescence_thickness_min),
+                                    animated("iridescenceThicknessMaximum", Part::iridescence_thickness_max),
+                                    map("iridescenceTexture", gpu::SLOT_iridescence),
+                                    map("iridescenceThicknessTexture", gpu::SLOT_iridescence_thickness)};
 constexpr Property volume[] = {animated("thicknessFactor", Part::thickness),
                                map("thicknessTexture", gpu::SLOT_thickness),
                                animated("attenuationColor", Part::attenuation_color),

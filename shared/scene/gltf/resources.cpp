@@ -151,12 +151,12 @@ std::filesystem::path Resources::find(const std::string& uri, std::vector<std::s
                      first == std::errc::no_such_file_or_directory ? "no such file" : first.message()));
 }
 
-std::vector<unsigned char> Resources::read(const std::string& uri, std::uint64_t most,
+std::vector<unsigned char> Resources::read(const std::string& uri, std::uint64_t max,
                                            std::vector<std::string>& notes) const {
     if (isData(uri)) return readData(uri, notes);
     const fs::path file = find(uri, notes);
     try {
-        return firstBytesOf(file, MAX_FILE_BYTES, most);
+        return firstBytesOf(file, MAX_FILE_BYTES, max);
     } catch (const std::runtime_error& e) {
         fail(fmt::format("{}: {}", oneLine(percentDecoded(uri)), e.what()));
     }

@@ -230,8 +230,8 @@ private:
 
     static void numbers(Json& value, const Property& p, const Where& where) {
         array(value, p, where);
-        if (value.size() < p.least || value.size() > p.most)
-            failAt(where, fmt::format("{} has {} numbers, not {}", p.key, value.size(), p.least));
+        if (value.size() < p.min_count || value.size() > p.max_count)
+            failAt(where, fmt::format("{} has {} numbers, not {}", p.key, value.size(), p.min_count));
         for (std::size_t i = 0; i < value.size(); ++i) {
             const auto key = [&] { return fmt::format("{}[{}]", p.key, i); };
             if (!value[i].is_number()) wrong(value[i], key(), "a number", where);

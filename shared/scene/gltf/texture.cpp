@@ -51,15 +51,15 @@ Sampler readSampler(const Json& file, const std::string& who) {
 }
 
 // Decodes an HDR image as a texture. `most`: limit of its decoded bytes. Errors begin with `who`.
-TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::string& who, std::uint64_t most,
+TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::string& who, std::uint64_t max,
                             std::vector<std::string>& notes) {
-    const ImageFile stored = readImage(std::as_bytes(bytes), who, {}, most);
+    const ImageFile stored = readImage(std::as_bytes(bytes), who, {}, max);
     if (stored.width > limits::texture_side || stored.height > limits::texture_side)
         fail(who, fmt::format("has {} x {} pixels; each side must be 1 to {}", stored.width, stored.height,
                               limits::texture_side));
     constexpr std::size_t bytesPerPixel = 4 * sizeof(float);
     const Image light = named(who, [&] { return radianceOf(stored, who, notes); });
-    if (light.pixels() > most / bytesPerPixel)
+    if (light.pixels() > max / bytesPerPixel)
         fail(who, fmt::format("with it the decoded images exceed the limit of {} MiB",
                               limits::imageBytes() >> 20));
     TextureImage image;

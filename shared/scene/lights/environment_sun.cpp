@@ -86,12 +86,12 @@ struct Spot {
 };
 
 // Flood fill from `first` over texels at least as bright as `least`; marks them.
-Texels connected(const SkyTexels& sky, std::size_t first, double least, std::vector<bool>& marked) {
+Texels connected(const SkyTexels& sky, std::size_t first, double min, std::vector<bool>& marked) {
     Texels found{first};
     marked[first] = true;
     for (std::size_t next = 0; next < found.size(); ++next)
         for (const std::size_t i : sky.around(found[next]))
-            if (!marked[i] && sky.light(i) >= least) {
+            if (!marked[i] && sky.light(i) >= min) {
                 marked[i] = true;
                 found.push_back(i);
             }
@@ -124,24 +124,24 @@ Texels peakOf(const SkyTexels& sky, const Texels& texels) {
         for (const std::size_t next : sky.around(i))
             if (reached.insert(next).second) edge.emplace(sky.light(next), next);
     }
-    if (closed == 0 || above * sun_spot::leastFall > sky.light(peak)) return {};
+    if (closed == 0 || above * sun_spot::minFall > sky.light(peak)) return {};
     visited.resize(closed);
     return visited;
 }
 
 // Candidate spots, the one with the most light first.
 std::vector<Spot> spotsOf(const SkyTexels& sky) {
-    const double least = sun_spot::leastContrast * sky.all() / (4 * pi);
+    const double min = sun_spot::minContrast * sky.all() / (4 * pi);
     std::vector<bool> marked(sky.image().pixels(), false);
     std::vector<Spot> spots;
     for (std::size_t i = 0; i < sky.image().pixels(); ++i) {
-        if (marked[i] || !(sky.light(i) >= least) || !(least > 0)) continue;
-        Spot spot{connected(sky, i, least, marked)};
+        if (marked[i] || !(sky.light(i) >= min) || !(min > 0)) continue;
+        Spot spot{connected(sky, i, min, marked)};
         double solid = 0;
         for (const std::size_t texel : spot.texels) solid += sky.solid(texel);
         if (solid > sun_spot::largestSolidAngle) spot.texels = peakOf(sky, spot.texels);
         for (const std::size_t texel : spot.texels) spot.light += sky.light(texel) * sky.solid(texel);
-        if (spot.light >= sun_spot::leastShare * sky.all()) spots.push_back(std::move(spot));
+        if (spot.light >= sun_spot::minShare * sky.all()) spots.push_back(std::move(spot));
     }
     std::ranges::stable_sort(spots, std::greater(), &Spot::light);
     return spots;
@@ -227,8 +227,8 @@ std::optional<EnvironmentSun> taken(const SkyTexels& sky, const Texels& spot, co
     for (int k = 0; k < 3; ++k) mean[k] = luminance(moments.along[k]);
     const double facing = glm::length(mean);
     const double power = luminance(moments.power);
-    if (!(facing >= sun_spot::leastFacing * power) || !(facing > 0) ||
-        power - facing > sun_spot::mostLost * sky.all())
+    if (!(facing >= sun_spot::minFacing * power) || !(facing > 0) ||
+        power - facing > sun_spot::maxLost * sky.all())
         return {};
     const glm::dvec3 centre = mean / facing;
     const glm::dvec3 irradiance = moments.along * centre;
@@ -237,9 +237,9 @@ std::optional<EnvironmentSun> taken(const SkyTexels& sky, const Texels& spot, co
     sun.light.name = "sun of the environment";
     sun.light.kind = LightKind::directional;
     sun.light.direction = -centre;
-    const double most = std::max({irradiance.r, irradiance.g, irradiance.b});
-    sun.light.intensity = static_cast<float>(most);
-    sun.light.color = glm::max(irradiance, glm::dvec3(0)) / most;
+    const double max = std::max({irradiance.r, irradiance.g, irradiance.b});
+    sun.light.intensity = static_cast<float>(max);
+    sun.light.color = glm::max(irradiance, glm::dvec3(0)) / max;
     // A cap of angular diameter a has the solid angle 4 pi sin^2(a / 4).
     sun.light.angle =
         static_cast<float>(4 * std::asin(std::sqrt(std::min(light * light / squared / (4 * pi), 1.0))));
@@ -255,7 +255,7 @@ EnvironmentSun environmentSun(const Environment& environment) {
     for (const Spot& spot : spots) {
         const glm::dvec3 around = aroundSpot(sky, spot.texels);
         std::optional<EnvironmentSun> sun = taken(sky, spot.texels, around);
-        if (!sun || sun->share < sun_spot::leastShare) continue;
+        if (!sun || sun->share < sun_spot::minShare) continue;
         sun->residual = environment;
         for (const std::size_t i : spot.texels) {
             const glm::dvec3 left(glm::min(sky.color(i), around));
@@ -266,7 +266,7 @@ EnvironmentSun environmentSun(const Environment& environment) {
     EnvironmentSun none;
     none.why = fmt::format(
         "no compact spot of at most {} sr is {:g} times as bright as the mean and has {:g} % of the light",
-        sun_spot::largestSolidAngle, sun_spot::leastContrast, 100 * sun_spot::leastShare);
+        sun_spot::largestSolidAngle, sun_spot::minContrast, 100 * sun_spot::minShare);
     return none;
 }
 

@@ -14,18 +14,18 @@ namespace diptych {
 namespace sun_spot {
 
 // Least brightness of each texel, relative to the mean radiance.
-inline constexpr double leastContrast = 16;
+inline constexpr double minContrast = 16;
 // Largest solid angle, sr: a disc of 6.5 degrees. If a spot is part of a larger bright region, its
-// boundary level is raised until it is small enough. The level must stay at or below 1 / leastFall of the
+// boundary level is raised until it is small enough. The level must stay at or below 1 / minFall of the
 // peak.
 inline constexpr double largestSolidAngle = 0.01;
-inline constexpr double leastFall = 8;
-// Compactness: a surface that faces the spot receives at least leastFacing of its light (0.9992 for a disc
-// of 6.5 degrees). The rest is at most mostLost of the environment's light.
-inline constexpr double leastFacing = 0.998;
-inline constexpr double mostLost = 1e-3;
+inline constexpr double minFall = 8;
+// Compactness: a surface that faces the spot receives at least minFacing of its light (0.9992 for a disc
+// of 6.5 degrees). The rest is at most maxLost of the environment's light.
+inline constexpr double minFacing = 0.998;
+inline constexpr double maxLost = 1e-3;
 // Least fraction of the light from all directions.
-inline constexpr double leastShare = 0.002;
+inline constexpr double minShare = 0.002;
 
 }  // namespace sun_spot
 

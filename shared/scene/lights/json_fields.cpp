@@ -53,18 +53,18 @@ bool JsonFields::flag(std::string_view key, bool fallback) const {
     return value ? value->get<bool>() : fallback;
 }
 
-double JsonFields::within(std::string_view key, double x, double least, double most) const {
+double JsonFields::within(std::string_view key, double x, double min, double max) const {
     if (!(std::abs(x) <= largestFloat)) fail(key, fmt::format("{:g} is too large", x));
-    if (x < least) fail(key, fmt::format("{:g} is below {:g}", x, least));
-    if (x > most) fail(key, fmt::format("{:g} is above {:g}", x, most));
+    if (x < min) fail(key, fmt::format("{:g} is below {:g}", x, min));
+    if (x > max) fail(key, fmt::format("{:g} is above {:g}", x, max));
     return x;
 }
 
-double JsonFields::number(std::string_view key, double fallback, double least, double most) const {
+double JsonFields::number(std::string_view key, double fallback, double min, double max) const {
     const nlohmann::json* value = find(key);
     if (!value) return fallback;
     if (!value->is_number()) fail(key, "is not a number");
-    return within(key, value->get<double>(), least, most);
+    return within(key, value->get<double>(), min, max);
 }
 
 void JsonFields::numbers(std::string_view key, std::span<double> values) const {

@@ -25,13 +25,13 @@ public:
 
     std::string text(std::string_view key, const std::string& fallback) const;  // a single line
     bool flag(std::string_view key, bool fallback) const;
-    double number(std::string_view key, double fallback, double least, double most) const;
+    double number(std::string_view key, double fallback, double min, double max) const;
     void numbers(std::string_view key, std::span<double> values) const;  // exactly values.size() elements
     glm::dvec3 vector(std::string_view key, const glm::dvec3& fallback) const;
     glm::dvec3 unit(std::string_view key, const glm::dvec3& fallback) const;  // normalized; throws if zero
 
     // Returns `x`, the value of `key`; throws if it is out of bounds.
-    double within(std::string_view key, double x, double least, double most) const;
+    double within(std::string_view key, double x, double min, double max) const;
 
 private:
     const nlohmann::json& object_;

@@ -56,8 +56,8 @@ const OwnKey ownKeys[] = {{"angle", {LightKind::directional}},
 
 constexpr double any = std::numeric_limits<double>::max();
 // Bounds of sizes are 1 / maxCoordinate and maxCoordinate, because shaders square them in float32.
-constexpr double leastSize = 1 / maxCoordinate;  // m
-constexpr double rounding = 1e-6;                // tolerance for an angle of pi written with few digits
+constexpr double minSize = 1 / maxCoordinate;  // m
+constexpr double rounding = 1e-6;              // tolerance for an angle of pi written with few digits
 
 bool takes(LightKind kind, std::string_view own) {
     return std::ranges::count(std::ranges::find(ownKeys, own, &OwnKey::key)->kinds, kind) > 0;
@@ -110,7 +110,7 @@ void readCone(const JsonFields& fields, Light& light) {
 }
 
 float sizeIn(const JsonFields& fields, std::string_view key, float fallback) {
-    return static_cast<float>(fields.number(key, double{fallback}, leastSize, maxCoordinate));
+    return static_cast<float>(fields.number(key, double{fallback}, minSize, maxCoordinate));
 }
 
 glm::dvec3 levelAxis(const glm::dvec3& direction) {
@@ -130,7 +130,7 @@ glm::dvec3 axisOf(const JsonFields& fields, const Light& light) {
 void readShape(const JsonFields& fields, Light& light) {
     std::array size{double{light.width}, double{light.height}};
     fields.numbers("size", size);
-    for (const double side : size) fields.within("size", side, leastSize, maxCoordinate);
+    for (const double side : size) fields.within("size", side, minSize, maxCoordinate);
     light.width = static_cast<float>(size[0]);
     light.height = static_cast<float>(size[1]);
     light.radius = sizeIn(fields, "radius", light.radius);

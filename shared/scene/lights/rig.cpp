@@ -22,7 +22,7 @@ namespace diptych {
 namespace {
 
 constexpr double TAU = 2.0 * std::numbers::pi;
-constexpr std::uint64_t MOST_LIGHTS = std::uint64_t{1} << 31;
+constexpr std::uint64_t MAX_LIGHTS = std::uint64_t{1} << 31;
 constexpr double LIGHTS_AT_A_POINT = 6.0;
 constexpr double CANDELA_PER_RANGE_SQUARED = 0.4;
 
@@ -55,7 +55,7 @@ Order parseOrder(const std::string& lights, std::string_view item) {
     if (found == STREAM_NAMES.end()) failLights(lights, fmt::format("unknown kind '{}'", kind));
     std::uint64_t count = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
-    if (error == std::errc::result_out_of_range) count = MOST_LIGHTS + 1;
+    if (error == std::errc::result_out_of_range) count = MAX_LIGHTS + 1;
     if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
         failLights(lights, fmt::format("'{}' is not a count", digits));
     return {static_cast<Stream>(found - STREAM_NAMES.begin()), count};
@@ -67,8 +67,8 @@ std::vector<Order> parseOrders(const std::string& lights) {
     for (std::size_t begin = 0; begin <= lights.size();) {
         const std::size_t end = std::min(lights.find(',', begin), lights.size());
         orders.push_back(parseOrder(lights, std::string_view(lights).substr(begin, end - begin)));
-        if (orders.back().count > MOST_LIGHTS - total)
-            failLights(lights, fmt::format("more than 2^31 ({}) lights", MOST_LIGHTS));
+        if (orders.back().count > MAX_LIGHTS - total)
+            failLights(lights, fmt::format("more than 2^31 ({}) lights", MAX_LIGHTS));
         total += orders.back().count;
         begin = end + 1;
     }
@@ -91,9 +91,9 @@ Box boxIn(const Bounds& bounds) {
     Box box{bounds.min, bounds.max - bounds.min};
     const double longest = std::max({box.size.x, box.size.y, box.size.z});
     if (!std::isfinite(longest)) throw std::runtime_error("--lights: the scene's bounds are not finite");
-    const double least = longest > 0 ? longest / 8 : 1.0;
+    const double min = longest > 0 ? longest / 8 : 1.0;
     for (int axis : {0, 1, 2}) {
-        const double grow = std::max(0.0, least - box.size[axis]);
+        const double grow = std::max(0.0, min - box.size[axis]);
         box.size[axis] += grow;
         if (axis != 1) box.min[axis] -= grow / 2;
     }

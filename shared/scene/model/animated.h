@@ -30,8 +30,8 @@ inline constexpr double minAttenuationDistance = 1e-12;
 struct PartProperties {
     // Components per key; for weights, per morph target.
     std::size_t width;
-    double least = -std::numeric_limits<float>::max();  // valid range; values outside are clamped
-    double most = std::numeric_limits<float>::max();
+    double min = -std::numeric_limits<float>::max();  // valid range; values outside are clamped
+    double max = std::numeric_limits<float>::max();
 };
 
 constexpr PartProperties propertiesOf(AnimatedPart part) {
@@ -70,9 +70,9 @@ constexpr PartProperties propertiesOf(AnimatedPart part) {
             return {1, thin, glm::pi<double>() - thin};
         case AnimatedPart::camera_near:  // an orthographic camera may have 0
             return {1, 0, any};
-#define DIPTYCH_PROPERTIES(type, name, initially, least, most) \
-    case AnimatedPart::name:                                   \
-        return {sizeof(type) / sizeof(float), least, most};
+#define DIPTYCH_PROPERTIES(type, name, initially, min, max) \
+    case AnimatedPart::name:                                \
+        return {sizeof(type) / sizeof(float), min, max};
             MATERIAL_FACTORS(DIPTYCH_PROPERTIES)
 #undef DIPTYCH_PROPERTIES
         case AnimatedPart::emissive:

@@ -32,9 +32,9 @@ std::vector<double> valuesOf(const glm::vec<N, float>& member) {
 void setPart(Material& m, MaterialParts& parts, AnimatedPart part, std::size_t slot,
              std::span<const double> v) {
     const auto emit = [&] {
-        constexpr double most = std::numeric_limits<float>::max();
+        constexpr double max = std::numeric_limits<float>::max();
         for (int c = 0; c < 3; ++c)
-            m.emissive[c] = static_cast<float>(std::min(parts.emissive[c] * parts.emissive_strength, most));
+            m.emissive[c] = static_cast<float>(std::min(parts.emissive[c] * parts.emissive_strength, max));
     };
     const auto place = [&] { setTransform(m.*materialSlots[slot].texture, parts.transforms[slot]); };
     switch (part) {

@@ -64,10 +64,10 @@ struct VertexBox {
 // Bounds of the posed vertices that need not visit each vertex (motion/deformation_bounds.h). A cluster
 // has nearby vertices that mostly follow one joint.
 struct DeformationBounds {
-    struct Influence {               // of one joint on a cluster
-        std::uint32_t joint = 0;     // into Skin::joints
-        double least = 0, most = 0;  // range of its weight among the cluster's vertices
-        VertexBox box;               // of the cluster's vertices that it moves
+    struct Influence {            // of one joint on a cluster
+        std::uint32_t joint = 0;  // into Skin::joints
+        double min = 0, max = 0;  // range of its weight among the cluster's vertices
+        VertexBox box;            // of the cluster's vertices that it moves
     };
     struct Cluster {
         VertexBox box;

@@ -86,8 +86,8 @@ MapTurn MapTurn::of(float w) {
 
 float MapTurn::times(float sign) const {
     const double x = cosine / (std::abs(cosine) + std::abs(sine)), turn = (sine < 0 ? 3 + x : 1 - x) / 4;
-    const float least = mirrored ? 2 : 1, coded = static_cast<float>(double{least} + turn);
-    return sign * (coded < least + 1 ? coded : least);
+    const float min = mirrored ? 2 : 1, coded = static_cast<float>(double{min} + turn);
+    return sign * (coded < min + 1 ? coded : min);
 }
 
 glm::vec4 turnedTangent(const glm::vec3& normal, const glm::vec4& tangent) {
@@ -148,7 +148,7 @@ void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns, 
     // Corners with equal tangents share a copy if the search is short: a vertex of a million triangles may
     // have a million tangents.
     constexpr std::uint32_t last = ~0u;
-    constexpr int mostShared = 16;
+    constexpr int maxShared = 16;
     std::vector<std::uint32_t> source(primitive.positions.size());
     for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
     std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: not set
@@ -160,9 +160,9 @@ void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns, 
         std::uint32_t v = primitive.indices[corner];
         for (int copies = 0; tangents[v] != glm::vec4(0) && (tangents[v] != tangent || groups[v] != group);
              ++copies) {
-            if (nextCopy[v] == last || copies == mostShared) {
+            if (nextCopy[v] == last || copies == maxShared) {
                 const auto copy = static_cast<std::uint32_t>(source.size());
-                if (copies < mostShared) nextCopy[v] = copy;
+                if (copies < maxShared) nextCopy[v] = copy;
                 source.push_back(source[v]);
                 tangents.push_back(glm::vec4(0));
                 groups.push_back(last);

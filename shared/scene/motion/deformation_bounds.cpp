@@ -52,7 +52,7 @@ class Clustering {
 public:
     explicit Clustering(const Primitive& primitive)
         : primitive_(primitive),
-          least_size_(std::clamp<std::size_t>(primitive.positions.size() / 64, 1, 8)),
+          min_size_(std::clamp<std::size_t>(primitive.positions.size() / 64, 1, 8)),
           order_(primitive.positions.size()) {
         for (std::uint32_t t = 0; t < primitive.targets.size(); ++t)
             if (!primitive.targets[t].positions.empty()) result_.targets.push_back(t);
@@ -60,9 +60,9 @@ public:
         for (std::uint32_t v = 0; v < order_.size(); ++v) {
             order_[v] = v;
             sharesOf(primitive, v, shares_);
-            double most = 0;
+            double max = 0;
             for (const Share& share : shares_)
-                if (share.share > most) joint[v] = share.joint, most = share.share;
+                if (share.share > max) joint[v] = share.joint, max = share.share;
         }
         std::ranges::stable_sort(order_, {}, [&](std::uint32_t v) { return joint[v]; });
         std::vector<std::span<std::uint32_t>> runs;
@@ -71,7 +71,7 @@ public:
         for (std::size_t begin = 0, end; begin < order_.size(); begin = end) {
             for (end = begin; end < order_.size() && joint[order_[end]] == joint[order_[begin]];) ++end;
             const std::span run = std::span(order_).subspan(begin, end - begin);
-            if (run.size() < least_size_)
+            if (run.size() < min_size_)
                 few.insert(few.end(), run.begin(), run.end());
             else
                 runs.push_back(run);
@@ -87,7 +87,7 @@ public:
 
 private:
     const Primitive& primitive_;
-    const std::size_t least_size_;
+    const std::size_t min_size_;
     std::vector<std::uint32_t> order_;
     std::vector<Share> shares_;  // of the current vertex
     DeformationBounds result_;
@@ -98,7 +98,7 @@ private:
         if (vertices.empty()) return;
         VertexBox box;
         for (const std::uint32_t v : vertices) include(box, primitive_.positions[v]);
-        if (splits == 0 || vertices.size() < 2 * least_size_) return add(vertices, box);
+        if (splits == 0 || vertices.size() < 2 * min_size_) return add(vertices, box);
         const glm::vec3 size = box.max - box.min;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const std::size_t half = vertices.size() / 2;
@@ -121,18 +121,18 @@ private:
                 Shares& joint = joints[share.joint];
                 DeformationBounds::Influence& influence = joint.influence;
                 influence.joint = share.joint;
-                influence.least = joint.vertices == 0 ? share.share : std::min(influence.least, share.share);
-                influence.most = std::max(influence.most, share.share);
+                influence.min = joint.vertices == 0 ? share.share : std::min(influence.min, share.share);
+                influence.max = std::max(influence.max, share.share);
                 include(influence.box, primitive_.positions[v]);
                 joint.sum += share.share;
                 ++joint.vertices;
             }
         }
         DeformationBounds::Cluster cluster{.box = box};
-        double most = 0;
+        double max = 0;
         for (auto& [j, joint] : joints) {
-            if (joint.vertices < vertices.size()) joint.influence.least = 0;
-            if (joint.sum > most) cluster.joint = j, most = joint.sum;
+            if (joint.vertices < vertices.size()) joint.influence.min = 0;
+            if (joint.sum > max) cluster.joint = j, max = joint.sum;
             result_.influences.push_back(joint.influence);
         }
         for (const std::uint32_t v : vertices) {
@@ -192,10 +192,10 @@ public:
             hull = {glm::min(hull.min, own.min), glm::max(hull.max, own.max)};
             if (influence.joint == c.joint) continue;
             const Range apart = transformed(joint(influence.joint) - frame, box);
-            around.min += influence.least * apart.min;
-            around.max += influence.least * apart.max;
-            rest -= influence.least;
-            terms_.push_back({apart, influence.most - influence.least});
+            around.min += influence.min * apart.min;
+            around.max += influence.min * apart.max;
+            rest -= influence.min;
+            terms_.push_back({apart, influence.max - influence.min});
         }
         // The weight beyond the minima goes to the joints that pull furthest.
         for (int axis = 0; axis < 3; ++axis) {

@@ -32,8 +32,8 @@ glm::dmat3 inverseTranspose(const glm::dmat3& m) {
         for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(m[c][r]));
     if (!(largest > 0)) return glm::dmat3(0);
     const glm::dmat3 axes = m / largest;
-    const double least = double{gpu::LEAST_DETERMINANT}, most = double{gpu::MOST_INVERSE};
-    return cofactors(axes) * std::min(1 / largest / std::max(std::abs(glm::determinant(axes)), least), most);
+    const double min = double{gpu::MIN_DETERMINANT}, max = double{gpu::MAX_INVERSE};
+    return cofactors(axes) * std::min(1 / largest / std::max(std::abs(glm::determinant(axes)), min), max);
 }
 
 // Computes the posed vertices of one instance.

@@ -37,7 +37,7 @@ Values valuesAt(const Scene& scene, double seconds, const std::string& choice) {
         const PartProperties properties = propertiesOf(property.part);
         std::vector<double>& result = values[property];
         for (const double x : sampled(*keyframes, property.part, seconds))
-            result.push_back(std::clamp(x, properties.least, properties.most));
+            result.push_back(std::clamp(x, properties.min, properties.max));
     }
     return values;
 }

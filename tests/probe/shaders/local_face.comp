@@ -24,7 +24,7 @@ void main() {
     OUT(5, 1) = r.texel.x;
     OUT(5, 2) = r.texel.y;
     OUT(5, 3) = r.depth;
-    float least = 1e30;
+    float smallest = 1e30;
     vec2 first = floor(r.texel - 0.5 * float(feature_shadow_kernel));
     vec3 q = onFace(p, face), n = onFace(normal, face);
     for (uint y = 0u; y <= feature_shadow_kernel; ++y)
@@ -33,8 +33,8 @@ void main() {
             vec2 across = (texel - tile.centre) / tile.texels;
             float inverse = dot(n, vec3(across, 1.0)) / dot(n, q);
             float plane = inverse * light.depth_scale + light.depth_offset;
-            float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.most);
-            least = min(least, r.depth + lift - plane);
+            float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.largest);
+            smallest = min(smallest, r.depth + lift - plane);
         }
-    OUT(5, 4) = least;
+    OUT(5, 4) = smallest;
 }

@@ -43,6 +43,6 @@ void main() {
     cascade.texels_per_metre = 1.0;
     cascade.offset = vec2(0.0);
     cascade.bias = 0.0;
-    Receiver r = receiverOf(s, light, cascade, MOST_LIFT);
+    Receiver r = receiverOf(s, light, cascade, MAX_LIFT);
     OUT(1, 0) = softlyFiltered(s, light, cascade, r, 0u);
 }

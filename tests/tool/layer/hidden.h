@@ -32,7 +32,7 @@ inline std::vector<std::string> everythingToHide() {
 #define DIPTYCH_HIDE_FORMAT(name, promised, left, helps) format(#name, left);
     DEVICE_FORMATS(DIPTYCH_HIDE_FORMAT)
 #undef DIPTYCH_HIDE_FORMAT
-#define DIPTYCH_HIDE_LIMIT(name, least, needed, what) all.emplace_back("limit " #name);
+#define DIPTYCH_HIDE_LIMIT(name, min, needed, what) all.emplace_back("limit " #name);
     DEVICE_LIMITS(DIPTYCH_HIDE_LIMIT)
 #undef DIPTYCH_HIDE_LIMIT
 #define DIPTYCH_HIDE_EXTENSION(name, what) all.emplace_back("extension " #name);

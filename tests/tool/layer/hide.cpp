@@ -29,10 +29,10 @@ bool hides(const std::string& name) {
 }
 
 // The lowered limit: the given number, or `least`.
-std::uint32_t lowered(const std::string& limit, std::uint32_t there, std::uint32_t least) {
+std::uint32_t lowered(const std::string& limit, std::uint32_t there, std::uint32_t min) {
     if (!hidden().starts_with(limit)) return there;
     const std::string number = hidden().substr(limit.size());
-    if (number.empty()) return std::min(there, least);
+    if (number.empty()) return std::min(there, min);
     return number[0] == ' ' ? static_cast<std::uint32_t>(std::stoul(number)) : there;
 }
 
@@ -163,7 +163,7 @@ VKAPI_ATTR void VKAPI_CALL getFeatures2(VkPhysicalDevice device, VkPhysicalDevic
 }
 
 void lowerLimits(VkPhysicalDeviceLimits& limits) {
-#define LOWER(name, least, needed, what) limits.name = lowered("limit " #name, limits.name, least);
+#define LOWER(name, min, needed, what) limits.name = lowered("limit " #name, limits.name, min);
     DEVICE_LIMITS(LOWER)
 #undef LOWER
 }

@@ -245,7 +245,7 @@ TEST(Architecture, APlantedLoanOfTheReferenceIsFound) {
 // Documentation: the top README fits one page, each module has a README, and every link between them
 // resolves.
 Faults documentationFaults(const Files& files) {
-    constexpr long most_lines = 150;
+    constexpr long max_lines = 150;
     static const std::regex relative_link("\\]\\(([^)#]+)(#[^)]*)?\\)");  // [words](file#heading)
     Faults faults;
     const auto isThere = [&](const std::string& path) { return files.contains(path); };
@@ -259,7 +259,7 @@ Faults documentationFaults(const Files& files) {
     for (const auto& [path, text] : files) {
         if (fs::path(path).filename() != "README.md" && path != "SECURITY.md") continue;
         const long lines = std::ranges::count(text, '\n');
-        if (path == "README.md" && lines > most_lines)
+        if (path == "README.md" && lines > max_lines)
             faults.push_back(path + " has " + std::to_string(lines) + " lines");
         for (std::sregex_iterator it(text.begin(), text.end(), relative_link), end; it != end; ++it) {
             const std::string target = (*it)[1].str();

@@ -232,7 +232,7 @@ TEST(Relations, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
         evaluate(given, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::rounding));
     EXPECT_TRUE(beside.passes());
     EXPECT_EQ(beside.aside, 1u);
-    EXPECT_EQ(beside.most_aside, 8u) << "of few edges";
+    EXPECT_EQ(beside.max_aside, 8u) << "of few edges";
     // In the middle of a wall the changed pixel makes its own edge, but the given image has none there.
     EXPECT_FALSE(evaluate(given, shows(2, 3), toleranceFor(Equality::rounding)).passes());
     // A whole column exceeds the allowed number of pixels.

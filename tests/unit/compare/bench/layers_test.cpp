@@ -252,10 +252,10 @@ TEST(BenchLayers, RegistersAreThoseOfPassesThatShade) {
     addRegisters(passes, "shade", 80);
     addRegisters(passes, "transmission", 128);
     ASSERT_EQ(passes.size(), 2u);
-    EXPECT_EQ(passes[0].least, 64);
-    EXPECT_EQ(passes[0].most, 96);
+    EXPECT_EQ(passes[0].min, 64);
+    EXPECT_EQ(passes[0].max, 96);
     EXPECT_EQ(passes[1].pass, "transmission");
-    EXPECT_EQ(passes[1].least, 128);
+    EXPECT_EQ(passes[1].min, 128);
 }
 
 }  // namespace

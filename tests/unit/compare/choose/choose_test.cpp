@@ -269,8 +269,8 @@ TEST(ChooseSearch, TheMostAccurateWithinATime) {
     table[2].set("spec-aa", "on");
     SearchOptions options;
     options.combine = anyOf;
-    for (const auto& [most, ms] : {std::pair{110.0, 100.0}, {140.0, 130.0}, {170.0, 169.0}}) {
-        options.budget.ms = most;
+    for (const auto& [max, ms] : {std::pair{110.0, 100.0}, {140.0, 130.0}, {170.0, 169.0}}) {
+        options.budget.ms = max;
         const Choice choice = search(table, evaluator, options);
         ASSERT_TRUE(choice.chosen);
         EXPECT_NEAR(choice.ms, ms, 1e-9);
@@ -284,7 +284,7 @@ TEST(ChooseTable, HoldsTheUsualChangesOfEachPath) {
     for (const RecordedSweep& sweep : recordedSweeps()) {
         const std::vector<Settings> candidates = candidatesOf(sweep), table = tableOf(candidates);
         EXPECT_GE(table.size(), 15u) << sweep.scene;
-        EXPECT_LE(table.size(), mostInTable) << sweep.scene;
+        EXPECT_LE(table.size(), maxInTable) << sweep.scene;
         const std::vector<Settings> few(candidates.begin(), candidates.begin() + 10);
         EXPECT_EQ(tableOf(few).size(), few.size());
     }

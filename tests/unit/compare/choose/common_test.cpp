@@ -155,7 +155,7 @@ TEST(ChooseForAll, TheLeastWorstErrorWithinTheTimeOfEveryScene) {
 
 TEST(ChooseForAll, WhatIsLeftOutIsCounted) {
     CommonOptions options;
-    options.most_candidates = 2;
+    options.max_candidates = 2;
     const ForAll all({{{10, 0.01}, {22, 0.01}, {30, 0.01}, {12, 0.01}},
                       {{220, 0.01}, {100, 0.01}, {300, 0.01}, {120, 0.01}}},
                      {.error = 0.02, .ms = {}, .bytes = {}}, options);

@@ -30,10 +30,10 @@ Variation lawful(const Law (&laws)[2], double value, double deviation, std::mt19
 }
 
 Sensitivities decided(const Law (&laws)[2], double value, const std::vector<double>& others, double deviation,
-                      std::uint64_t seed, double least = 1, double most = 100) {
+                      std::uint64_t seed, double min = 1, double max = 100) {
     std::mt19937_64 random(seed);
     Property property{
-        .name = "load", .unit = "things", .how = "more", .value = value, .least = least, .most = most};
+        .name = "load", .unit = "things", .how = "more", .value = value, .min = min, .max = max};
     for (const double other : others)
         property.others.push_back([&, other] { return lawful(laws, other, deviation, random); });
     return analyzeSensitivity(lawful(laws, value, deviation, random).draw, {property}, 5);
@@ -74,7 +74,7 @@ TEST(ChooseSensitivity, AVariationThatCannotBeDrawnIsSaidAndTheOthersAreKept) {
     const Law laws[2] = {{2, 1}, {10, 0.5}};  // equal at 16
     std::mt19937_64 random(1);
     const auto fails = []() -> Variation { throw std::runtime_error("too large for this device"); };
-    Property lost{.name = "lost", .unit = "things", .how = "more", .value = 8, .least = 1, .most = 100};
+    Property lost{.name = "lost", .unit = "things", .how = "more", .value = 8, .min = 1, .max = 100};
     lost.others = {fails};
     Property kept = lost;
     kept.name = "kept";
@@ -125,7 +125,7 @@ TEST(ChooseSensitivity, FewValuesAreToldAsMeasured) {
     std::mt19937_64 random(1);
     const Law laws[2] = {{2, 1}, {4, 0.25}};
     Property samples{
-        .name = "MSAA", .unit = "samples", .how = "", .value = 1, .least = 1, .most = 8, .few_values = true};
+        .name = "MSAA", .unit = "samples", .how = "", .value = 1, .min = 1, .max = 8, .few_values = true};
     samples.others.push_back([&] { return lawful(laws, 4, 0.01, random); });
     Property nothing = samples;
     nothing.others.clear();

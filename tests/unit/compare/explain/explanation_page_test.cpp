@@ -57,20 +57,20 @@ std::array<double, 3> seen(const Matrix& eye, const Color8& color) {
     return out;
 }
 
-double leastDistance(const Matrix& eye, std::size_t colors) {
-    double least = 1e9;
+double minDistance(const Matrix& eye, std::size_t colors) {
+    double min = 1e9;
     for (std::size_t i = 0; i < colors; ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const auto a = seen(eye, causeColor(i)), b = seen(eye, causeColor(j));
-            least = std::min(least, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+            min = std::min(min, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
         }
-    return least;
+    return min;
 }
 
 TEST(ExplanationImages, ColoursAreToldApartByMostEyes) {
     for (const Matrix& eye : {everyCone, withoutL, withoutM}) {
-        EXPECT_GT(leastDistance(eye, ownColors + 1), 25);
-        EXPECT_EQ(leastDistance(eye, ownColors + 2), 0) << "the rest share one";
+        EXPECT_GT(minDistance(eye, ownColors + 1), 25);
+        EXPECT_EQ(minDistance(eye, ownColors + 2), 0) << "the rest share one";
     }
 }
 

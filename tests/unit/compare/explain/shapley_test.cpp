@@ -58,7 +58,7 @@ TEST(Shapley, IsTheMeanOverAllOrders) {
 
 // The shares add up to the value of swapping all causes.
 TEST(Shapley, SharesAddUp) {
-    for (int causes = 1; causes <= mostExactCauses; ++causes) {
+    for (int causes = 1; causes <= maxExactCauses; ++causes) {
         const std::vector<double> game = randomGame(causes, 11);
         const Shares shares = exactShares(causes, [&](Subset s) { return game.at(s); });
         EXPECT_NEAR(sumOf(shares.share), game.back() - game.front(), 1e-12);

@@ -136,8 +136,8 @@ TEST(SceneGltf, ACopyHasThePosedSceneAtItsTime) {
             }
             if (one.iridescence > 0) {
                 EXPECT_EQ(one.iridescence_ior, other.iridescence_ior) << one.name;
-                EXPECT_EQ(one.iridescence_thickness_least, other.iridescence_thickness_least) << one.name;
-                EXPECT_EQ(one.iridescence_thickness_most, other.iridescence_thickness_most) << one.name;
+                EXPECT_EQ(one.iridescence_thickness_min, other.iridescence_thickness_min) << one.name;
+                EXPECT_EQ(one.iridescence_thickness_max, other.iridescence_thickness_max) << one.name;
             }
             EXPECT_NEAR(one.normal_texture.u.x, other.normal_texture.u.x, 1e-6) << name;
             EXPECT_NEAR(one.normal_texture.v.x, other.normal_texture.v.x, 1e-6) << name;

@@ -29,10 +29,10 @@ void expectReadable(Rgb8 (*colorAt)(double), const ColorVision& vision) {
 }
 
 double nearest(const Rgb8& color, Rgb8 (*colorAt)(double), const ColorVision& vision) {
-    double least = HUGE_VAL;
+    double min = HUGE_VAL;
     for (int i = 0; i <= samples; ++i)
-        least = std::min(least, distance(color, colorAt(1.0 * i / samples), vision));
-    return least;
+        min = std::min(min, distance(color, colorAt(1.0 * i / samples), vision));
+    return min;
 }
 
 TEST(ColorMaps, LightnessRisesForEveryReader) {

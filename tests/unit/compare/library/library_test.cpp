@@ -59,11 +59,11 @@ TEST(Library, FiguresAreThoseOfDiff) {
                 EXPECT_EQ(std::ranges::count(figureNames(), name), 1) << name;
             }
             ASSERT_EQ(result.flip.size(), half.size());
-            float most = 0;
+            float max = 0;
             for (std::size_t i = 0; i < half.size(); ++i)
-                if (coverage.covered[i]) most = std::max(most, result.flip[i]);
+                if (coverage.covered[i]) max = std::max(max, result.flip[i]);
             ASSERT_GE(result.worst_x, 0);
-            EXPECT_EQ(result.flip[static_cast<std::size_t>(result.worst_y * width + result.worst_x)], most);
+            EXPECT_EQ(result.flip[static_cast<std::size_t>(result.worst_y * width + result.worst_x)], max);
         }
 }
 

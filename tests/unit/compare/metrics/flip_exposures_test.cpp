@@ -65,15 +65,15 @@ TEST(FlipExposures, ErrorsAreTheLargestOfAllExposures) {
     options.stop_exposure = 1;
     options.exposures = 3;
     const HdrFlipResult all = hdrFlip(a, b, options);
-    Image most(300, 40, 1);
+    Image max(300, 40, 1);
     for (int i = 0; i < 3; ++i) {
         HdrFlipOptions one;
         one.start_exposure = one.stop_exposure = -6 + 3.5 * i;
         one.exposures = 1;
         const Image error = hdrFlip(a, b, one).error;
-        for (std::size_t p = 0; p < error.pixels(); ++p) most.data[p] = std::max(most.data[p], error.data[p]);
+        for (std::size_t p = 0; p < error.pixels(); ++p) max.data[p] = std::max(max.data[p], error.data[p]);
     }
-    EXPECT_EQ(all.error.data, most.data);
+    EXPECT_EQ(all.error.data, max.data);
 }
 
 }  // namespace

@@ -231,11 +231,11 @@ TEST(Flip, StatisticsAreOfCoveredPixelsAndFiltersOfAll) {
     const Image a = noise(64, 48, 11), b = noise(64, 48, 12);
     const FlipResult all = ldrFlip(a, b);
     std::vector<std::uint8_t> covered(a.pixels());
-    double sum = 0, most = 0;
+    double sum = 0, max = 0;
     for (std::size_t i = 0; i < covered.size(); i += 3) {
         covered[i] = 1;
         sum += double{all.error.data[i]};
-        most = std::max(most, double{all.error.data[i]});
+        max = std::max(max, double{all.error.data[i]});
     }
     FlipOptions options;
     options.covered = covered;
@@ -243,7 +243,7 @@ TEST(Flip, StatisticsAreOfCoveredPixelsAndFiltersOfAll) {
     EXPECT_EQ(r.error.data, all.error.data);
     EXPECT_EQ(r.pixels, 1024u);
     EXPECT_NEAR(r.mean, sum / 1024, 1e-12) << "doubles in another order";
-    EXPECT_EQ(r.max, most);
+    EXPECT_EQ(r.max, max);
     EXPECT_LT(r.weighted_first_quartile, r.weighted_median);
     EXPECT_LT(r.weighted_median, r.weighted_third_quartile);
 }

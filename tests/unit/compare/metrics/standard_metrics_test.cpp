@@ -73,14 +73,14 @@ TEST(StandardMetrics, DisplayValuesHaveAPeakOfOne) {
 }
 
 TEST(StandardMetrics, UlpsAreStepsBetweenFloats) {
-    const float one = std::nextafter(1.0f, 2.0f), least = std::numeric_limits<float>::denorm_min();
+    const float one = std::nextafter(1.0f, 2.0f), min = std::numeric_limits<float>::denorm_min();
     EXPECT_EQ(scalars({1}, {one}).ulp_max, 1);
     EXPECT_EQ(scalars({1}, {2}).ulp_max, 1 << 23);
     EXPECT_EQ(scalars({0}, {-0.0f}).ulp_max, 0);
-    EXPECT_EQ(scalars({least}, {-least}).ulp_max, 2) << "over 0";
+    EXPECT_EQ(scalars({min}, {-min}).ulp_max, 2) << "over 0";
     EXPECT_EQ(scalars({1, 1, 1, 1}, {one, 1, 1, 2}).ulp_mean, (1 + (1 << 23)) / 4.0);
-    constexpr float most = std::numeric_limits<float>::max();
-    EXPECT_EQ(scalars({-most}, {most}).ulp_max, 2.0 * 0x7f7fffff) << "exact, past what 32 bits hold";
+    constexpr float max = std::numeric_limits<float>::max();
+    EXPECT_EQ(scalars({-max}, {max}).ulp_max, 2.0 * 0x7f7fffff) << "exact, past what 32 bits hold";
 }
 
 TEST(StandardMetrics, ANanAgainstANumberIsInfinite) {

@@ -252,7 +252,7 @@ TEST(PlotColors, PathsDifferInLightnessAndFromTheGround) {
 
 TEST(PlotColors, PartsOfABarDifferForEveryReader) {
     std::vector<Rgb8> parts;
-    for (std::size_t i = 0; i < mostParts; ++i) {
+    for (std::size_t i = 0; i < maxParts; ++i) {
         const std::vector<Rgb8> colors = colorsOf("part" + std::to_string(i));
         ASSERT_EQ(colors.size(), 1u) << i;
         parts.push_back(colors[0]);

@@ -109,7 +109,7 @@ TEST(ReferenceAmbient, TheTableHoldsTheIntegrals) {
         for (const double roughness : {0.045, 0.06, 0.2, 0.5, 0.77, 1.0}) {
             const double k = 2 * roughness * roughness, blend = double{gpu::ALBEDO_BLEND};
             const double along = blend * std::sqrt(n_dot_v * (1 + k) / (n_dot_v + k)) + (1 - blend) * root;
-            const double least = std::sqrt(0.045), down = (std::sqrt(roughness) - least) / (1 - least);
+            const double min = std::sqrt(0.045), down = (std::sqrt(roughness) - min) / (1 - min);
             const glm::dvec2 expected = diptych::specularAlbedo(n_dot_v, roughness * roughness);
             for (const int part : {0, 1})
                 EXPECT_NEAR(cubicAt(down * (height - 1), height,

@@ -353,14 +353,14 @@ TEST(ReferenceDraw, AnotherImageIsBegunAnew) {
         change(changed, view);
         // The first progress report reveals how many tiles remain.
         std::mutex one;
-        double least = 1;
+        double min = 1;
         const auto first = [&](double fraction) {
             const std::lock_guard lock(one);
-            least = std::min(least, fraction);
+            min = std::min(min, fraction);
             throw std::runtime_error("stop");
         };
         EXPECT_THROW(drawn(changed, view, true, 1, keep, first), std::runtime_error);
-        EXPECT_EQ(least, 1.0 / 9) << name;
+        EXPECT_EQ(min, 1.0 / 9) << name;
         EXPECT_EQ(namesIn(keep.parent_path()).size(), 2u)
             << name << ": what is kept of the first is left alone";
     }

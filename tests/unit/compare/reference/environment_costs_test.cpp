@@ -28,7 +28,7 @@ TEST(ReferenceEnvironmentCosts, ItsHarmonicsAreThePaths) {
     const EnvironmentLight light(sky, 1);
     const EnvironmentApproximation approximation(light);
     const Harmonics harmonics = project(LatLong(sky));
-    const double window = leastWindow(harmonics);
+    const double window = minWindow(harmonics);
     EXPECT_GT(window, 0);
     EXPECT_NEAR(approximation.window() / window, 1, 0.02);
     for (const double damped : {0.0, window}) {

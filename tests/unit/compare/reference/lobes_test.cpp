@@ -283,14 +283,14 @@ TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
     enum { sharp, grazing, ending, easy, all };
     for (int kind = 0; kind < all; ++kind) {
         int lights = 0, beyond_share = 0, wider_seen = 0, brighter_seen = 0;
-        double closest = 0, most = 0;
+        double closest = 0, max = 0;
         for (int i = 0; i < 20000; ++i) {
             const glm::vec3 place(anywhere() * number(5, 20)), n = glm::normalize(glm::vec3(anywhere()));
             Surface s = mirror(kind == sharp ? number(0, 0.2) : number(0.3, 1), 0);
             s.position = glm::dvec3(place);
             s.to_viewer = -glm::normalize(s.position);
             s.normal = s.geometric_normal = glm::normalize(glm::dvec3(n));
-            const double alpha = std::pow(std::max(s.roughness, least_roughness), 2);
+            const double alpha = std::pow(std::max(s.roughness, min_roughness), 2);
             const glm::dvec3 facet = glm::normalize(s.normal + anywhere() * (alpha * number(0, 4)));
             glm::dvec3 l = facet * (2 * glm::dot(facet, s.to_viewer)) - s.to_viewer;
             if (kind == grazing)
@@ -312,7 +312,7 @@ TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
             ++lights;
             beyond_share += error > share;
             closest = std::max(closest, error / bound);
-            most = std::max(most, bound / share);
+            max = std::max(max, bound / share);
             wider_seen += errorOf(1.01 * alpha, 1) > bound;
             brighter_seen += errorOf(alpha, 1.001) > bound;
         }
@@ -320,7 +320,7 @@ TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
         EXPECT_GT(lights, 1000);
         EXPECT_GT(wider_seen, lights * 9 / 10);
         if (kind == easy) {
-            EXPECT_EQ(most, 1);
+            EXPECT_EQ(max, 1);
             EXPECT_EQ(brighter_seen, lights);
             continue;
         }

@@ -150,7 +150,7 @@ TEST(ReferenceMicrosurface, TheReferenceFollowsItForEveryKindOfLight) {
             s.dielectric_f0 = glm::dvec3(0.04);
             s.dielectric_f90 = 1;
             const Shading shading = shaded(s, {}, 1);
-            EXPECT_NEAR(shading.ambient.g, 1, 2 * shading.uncertainty + Between::leastShare)
+            EXPECT_NEAR(shading.ambient.g, 1, 2 * shading.uncertainty + Between::minShare)
                 << roughness << " " << cosine;
             EXPECT_LE(shading.uncertainty, 0.02) << roughness << " " << cosine;
         }

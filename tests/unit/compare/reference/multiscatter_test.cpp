@@ -40,18 +40,18 @@ TEST(ReferenceMultiscatter, AWhiteMetalIsInvisibleInAFurnace) {
 // The base gets the light that the layer does not reflect. Without compensation the two do not add up to 1
 // (glTF 2.0, appendix B).
 TEST(ReferenceMultiscatter, AWhiteDielectricIsInvisibleInAFurnace) {
-    double most = 0;
+    double max = 0;
     for (const double roughness : {0.0, 0.3, 1.0})
         for (const double cosine : {1e-3, 0.05, 0.5, 1.0}) {
             Surface s = mirror(roughness, std::acos(cosine));
             s.metallic = 0;
             s.dielectric_f0 = glm::dvec3(0.04);
             s.dielectric_f90 = 1;
-            most = std::max(most, allBy(Multiscatter::off, s));
+            max = std::max(max, allBy(Multiscatter::off, s));
             for (const Multiscatter each : compensations)
                 EXPECT_NEAR(allBy(each, s), 1, 1e-5) << nameOf(each) << " " << roughness << " " << cosine;
         }
-    EXPECT_GT(most, 1.5) << "appendix B gains nothing at grazing angles: has it changed?";
+    EXPECT_GT(max, 1.5) << "appendix B gains nothing at grazing angles: has it changed?";
 }
 
 // The compensation of a mix is the mix of two compensations. Compensating the mixed F0 is off by 0.05 and

@@ -63,7 +63,7 @@ TEST(FrameProperties, RadianceBeyondItsFormatIsSaid) {
 
 TEST(FrameProperties, WhatIsNoNumberIsRepairedAndNamed) {
     constexpr float infinity = std::numeric_limits<float>::infinity(),
-                    most = std::numeric_limits<float>::max();
+                    max = std::numeric_limits<float>::max();
     Image image(3, 2, 3, 0.5f);
     EXPECT_TRUE(repairNonfinite(image).empty());
     image.at(1, 0, 1) = infinity;
@@ -72,9 +72,9 @@ TEST(FrameProperties, WhatIsNoNumberIsRepairedAndNamed) {
     EXPECT_EQ(repairNonfinite(image), (std::vector<std::uint32_t>{1, 5}));
     EXPECT_EQ(nonfinitePixels(image), 0u);
     EXPECT_EQ(image.at(1, 0, 0), 0.5f) << "the other components stay";
-    EXPECT_EQ(image.at(1, 0, 1), most);
+    EXPECT_EQ(image.at(1, 0, 1), max);
     EXPECT_EQ(image.at(2, 1, 0), 0.0f);
-    EXPECT_EQ(image.at(2, 1, 2), -most);
+    EXPECT_EQ(image.at(2, 1, 2), -max);
 
     Frame frame;
     addRepaired(frame, Channel::normals, {});

@@ -75,7 +75,7 @@ std::vector<Frame> greyFrames(float deferred, float forward, const std::string& 
     return frames;
 }
 
-constexpr std::array<int, 3> quarter{64, 64, 64}, most{191, 191, 191}, black{0, 0, 0}, white{255, 255, 255};
+constexpr std::array<int, 3> quarter{64, 64, 64}, max{191, 191, 191}, black{0, 0, 0}, white{255, 255, 255};
 
 // Colour of an error of 0.5, many times the channel's tolerance.
 std::array<int, 3> errorOfHalf(const Report& report, const std::string& name) {
@@ -101,10 +101,10 @@ TEST(ReportImages, LeftIsTheBaselineRightTheOther) {
             const std::string page = contentsOf(out / "index.html");
             for (const char* channel : {"c0-roughness", "c0-metallic"}) {
                 const std::array<int, 3> apart = errorOfHalf(report, channel + 3);
-                CardImages expected{quarter,        most,       apart,         "deferred",
+                CardImages expected{quarter,        max,        apart,         "deferred",
                                     "forward_plus", "deferred", "forward_plus"};
                 if (baseline == Path::forward_plus)
-                    expected = {most, quarter, apart, "forward_plus", "deferred", "forward_plus", "deferred"};
+                    expected = {max, quarter, apart, "forward_plus", "deferred", "forward_plus", "deferred"};
                 const CardImages shown = cardIn(page, out, channel);
                 EXPECT_EQ(shown.left, expected.left) << channel << single;
                 EXPECT_EQ(shown.right, expected.right) << channel << single;
@@ -121,7 +121,7 @@ TEST(ReportImages, EveryPairHasItsOwnImages) {
     writeReport(reportOf(frames), out, {});
     std::string page = contentsOf(out / "index.html");
     EXPECT_EQ(cardIn(page, out, "c0-roughness").left, quarter);
-    EXPECT_EQ(cardIn(page, out, "c0-roughness").right, most);
+    EXPECT_EQ(cardIn(page, out, "c0-roughness").right, max);
     EXPECT_EQ(cardIn(page, out, "c1-roughness").left, black);
     EXPECT_EQ(cardIn(page, out, "c1-roughness").right, white);
 
@@ -134,8 +134,8 @@ TEST(ReportImages, EveryPairHasItsOwnImages) {
     page = contentsOf(out / "index.html");
     for (const auto& [card, left, right, first, second] :
          {std::tuple{"c0-roughness", black, quarter, "reference", "deferred"},
-          {"c1-roughness", black, most, "reference", "forward_plus"},
-          {"c2-roughness", quarter, most, "deferred", "forward_plus"}}) {
+          {"c1-roughness", black, max, "reference", "forward_plus"},
+          {"c2-roughness", quarter, max, "deferred", "forward_plus"}}) {
         const CardImages shown = cardIn(page, out, card);
         EXPECT_EQ(shown.left, left) << card;
         EXPECT_EQ(shown.right, right) << card;

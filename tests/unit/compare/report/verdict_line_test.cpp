@@ -31,11 +31,11 @@ Report reportWith(std::vector<Frame> frames, const CompareOptions& options) {
 
 TEST(Criterion, SaysHowMuchOfItsLimitIsUsed) {
     EXPECT_EQ(usedOf({.metric = "max", .measured = 1, .limit = 4}), 0.25);
-    EXPECT_EQ(usedOf({.metric = "psnr", .measured = 80, .limit = 40, .least = true}), 0.5);
+    EXPECT_EQ(usedOf({.metric = "psnr", .measured = 80, .limit = 40, .min = true}), 0.5);
     EXPECT_EQ(usedOf({.metric = "max", .measured = 0, .limit = 0}), 0);
     EXPECT_EQ(usedOf({.metric = "max", .measured = 1, .limit = 0}), std::numeric_limits<double>::infinity());
     constexpr double endless = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(usedOf({.metric = "psnr", .measured = endless, .limit = endless, .least = true}), 1);
+    EXPECT_EQ(usedOf({.metric = "psnr", .measured = endless, .limit = endless, .min = true}), 1);
 }
 
 TEST(Criterion, NeverRoundsSomeToNoneOrMostToAll) {
@@ -58,7 +58,7 @@ TEST(Criterion, IsTheBoundThatDecides) {
         any{Condition::Kind::any, {}, 0, {bound("max", 0.1), bound("psnr", 40)}};
     EXPECT_EQ(decidingBound(all, measured)->metric, "mean");
     EXPECT_EQ(decidingBound(any, measured)->metric, "psnr");
-    EXPECT_TRUE(decidingBound(any, measured)->least);
+    EXPECT_TRUE(decidingBound(any, measured)->min);
     EXPECT_FALSE(decidingBound({Condition::Kind::all, {}, 0, {}}, measured).has_value());
 }
 

@@ -447,8 +447,8 @@ std::map<Channel, Image> layerRanges(int low, const std::function<void(Material&
     m.sheen_roughness = 0.75f;
     m.iridescence = 0.5f;
     m.iridescence_ior = 1.5f;
-    m.iridescence_thickness_least = 300;
-    m.iridescence_thickness_most = 100;
+    m.iridescence_thickness_min = 300;
+    m.iridescence_thickness_max = 100;
     set(m);
     return texelRanges(plane.scene, plane.frame, {});
 }

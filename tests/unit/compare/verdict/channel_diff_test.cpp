@@ -34,10 +34,10 @@ Comparison comparedPair(const std::vector<Frame>& frames, const CompareOptions& 
 TEST(ChannelDiff, PassesUpToItsToleranceAndNoFurther) {
     for (const Channel mode : {Channel::metallic, Channel::roughness, Channel::occlusion}) {
         std::vector<Frame> frames = framesOf(mode);
-        const double most = channelIn(comparedPair(frames), mode).tolerance.max;
-        ASSERT_GT(most, 0) << debugMode(mode).name;
+        const double max = channelIn(comparedPair(frames), mode).tolerance.max;
+        ASSERT_GT(max, 0) << debugMode(mode).name;
         const auto verdictAt = [&](double share) {
-            frames[1].channels.at(mode).at(1, 2) = static_cast<float>(0.5 + share * most);
+            frames[1].channels.at(mode).at(1, 2) = static_cast<float>(0.5 + share * max);
             const Comparison comparison = comparedPair(frames);
             EXPECT_EQ(comparison.passed(), channelIn(comparison, mode).verdict == Verdict::pass);
             return channelIn(comparison, mode).verdict;

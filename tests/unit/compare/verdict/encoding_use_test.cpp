@@ -75,8 +75,8 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
     }
     // Radiance is bounded relative to its largest component, or by the smallest step.
     for (const float size : {1e-6f, 3.0f}) {
-        const auto [relative, least] = radianceBound(gpu::EMISSION_MANTISSA_BITS);
-        const double bound = std::max(size * relative, least);
+        const auto [relative, min] = radianceBound(gpu::EMISSION_MANTISSA_BITS);
+        const double bound = std::max(size * relative, min);
         for (const double share : {0.9, 1.1}) {
             for (int c = 0; c < 3; ++c)
                 p.read(Channel::emission)[c] = p.own(Channel::emission)[c] = c == 2 ? size : 0;

@@ -94,10 +94,10 @@ TEST(EnvironmentCost, WhatItTakesOfLitIsSaidWithItsSetting) {
     EXPECT_EQ(grantedText(lit, granted),
               "lit is off by 20 % in the mean, granted to split IBL (p99.9 15 %): --ibl sampled; diffuse IBL "
               "(p99.9 5 %): --ibl-diffuse map");
-    const auto evaluated = [&](float value, const char* most) {
+    const auto evaluated = [&](float value, const char* max) {
         p.path.channels[lit.channel] = Image(1, 1, 3, value);
         const std::string text =
-            fmt::format(R"({{"rules": [{{"channel": "lit", "granted": {}, "because": "x"}}]}})", most);
+            fmt::format(R"({{"rules": [{{"channel": "lit", "granted": {}, "because": "x"}}]}})", max);
         const std::vector<Rule> rules = rulesFromJson(text, "t.json");
         return diffChannel(lit, p.pair(), rules, false);
     };

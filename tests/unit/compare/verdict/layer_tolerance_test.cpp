@@ -103,12 +103,12 @@ double throughHalf(double t) {
 }
 
 TEST(LayerTolerance, AThicknessHoldsTheBoundOfAHalf) {
-    const auto [relative, least] = halfBound(gpu::IRIDESCENCE_THICKNESS_BITS);
+    const auto [relative, min] = halfBound(gpu::IRIDESCENCE_THICKNESS_BITS);
     for (const double first : {1e-7, 5e-5, 64.0, 400.0}) {
         double worst = 0;
         for (int i = 0; i <= 100'000; ++i) {
             const double t = first * (1 + i / 1e5);
-            worst = std::max(worst, std::abs(t - throughHalf(t)) / std::max(t * relative, least));
+            worst = std::max(worst, std::abs(t - throughHalf(t)) / std::max(t * relative, min));
         }
         EXPECT_LE(worst, 1) << first;
         EXPECT_GE(worst, 0.98) << first << ": a bound that is never neared hides errors";

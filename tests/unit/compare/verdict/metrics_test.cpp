@@ -86,15 +86,15 @@ TEST(Metrics, OfAChannelFollowTheirDefinitions) {
 
 // Largest difference in length between two covered vectors.
 double longestApart(const Spread& s) {
-    double most = 0;
+    double max = 0;
     for (std::size_t i = 0; i < s.reference.pixels(); ++i) {
         const float *r = s.reference.pixel(i), *t = s.test.pixel(i);
         const double apart =
             std::abs(std::sqrt(double{r[0]} * r[0] + double{r[1]} * r[1] + double{r[2]} * r[2]) -
                      std::sqrt(double{t[0]} * t[0] + double{t[1]} * t[1] + double{t[2]} * t[2]));
-        if (s.covered.covered[i] && std::isfinite(apart)) most = std::max(most, apart);
+        if (s.covered.covered[i] && std::isfinite(apart)) max = std::max(max, apart);
     }
-    return most;
+    return max;
 }
 
 TEST(Metrics, AreGivenByTheirNames) {

@@ -45,13 +45,13 @@ TEST(Captures, EachChannelHasComponentsOfItsOwn) {
 
 // Every requested channel once, images in order; light in as few passes as possible.
 TEST(Captures, PassesHoldWhatIsAskedFor) {
-    for (const std::size_t most : {std::size_t{8}, std::size_t{4}}) {
-        const auto groups = captureGroups(everyMode(), of_lit, most);
-        EXPECT_EQ(groups.size(), most == 8 ? 5u : 8u);
+    for (const std::size_t max : {std::size_t{8}, std::size_t{4}}) {
+        const auto groups = captureGroups(everyMode(), of_lit, max);
+        EXPECT_EQ(groups.size(), max == 8 ? 5u : 8u);
         std::vector<Channel> modes;
         gpu::uint all = 0;
         for (const CaptureGroup& group : groups) {
-            EXPECT_LE(group.formats.size(), most);
+            EXPECT_LE(group.formats.size(), max);
             EXPECT_EQ(group.formats.size(), static_cast<std::size_t>(std::popcount(group.images)));
             EXPECT_GT(group.images, all) << "in the order of images";
             EXPECT_EQ(group.images & all, 0u) << "an image is drawn twice";
@@ -63,7 +63,7 @@ TEST(Captures, PassesHoldWhatIsAskedFor) {
         EXPECT_EQ(all, (1u << gpu::CAPTURE_IMAGES) - 1);
         const auto shading = std::ranges::count_if(
             groups, [](const CaptureGroup& group) { return group.images >> gpu::FIRST_LIT_IMAGE != 0; });
-        EXPECT_EQ(shading, most == 8 ? 2 : 3);
+        EXPECT_EQ(shading, max == 8 ? 2 : 3);
     }
 }
 

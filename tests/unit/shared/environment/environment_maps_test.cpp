@@ -147,19 +147,19 @@ TEST(EnvironmentMaps, ATurnedPolynomialIsThatOfTheTurnedNormal) {
 }
 
 TEST(EnvironmentMaps, AWindowIsAsSmallAsKeepsIrradianceFromBeingNegative) {
-    EXPECT_EQ(leastWindow(project(LatLong(constantSky(1)))), 0);
+    EXPECT_EQ(minWindow(project(LatLong(constantSky(1)))), 0);
     Environment sun = constantSky(0, 64, 32);
     sun.radiance.at(20, 10, 0) = 1000;
     const Harmonics harmonics = project(LatLong(sun));
-    const double window = leastWindow(harmonics);
+    const double window = minWindow(harmonics);
     EXPECT_GT(window, 0);
-    double least = 0, without = 0;
+    double min = 0, without = 0;
     for (int i = 0; i < 500; ++i) {
-        least = std::min(least, evaluate(irradiancePolynomial(harmonics, window), onSphere(i, 500)).x);
+        min = std::min(min, evaluate(irradiancePolynomial(harmonics, window), onSphere(i, 500)).x);
         without = std::min(without, evaluate(irradiancePolynomial(harmonics), onSphere(i, 500)).x);
     }
     EXPECT_LT(without, 0);
-    EXPECT_GT(least, 0.01 * without) << "but for what lies between the directions that are tried";
+    EXPECT_GT(min, 0.01 * without) << "but for what lies between the directions that are tried";
 }
 
 TEST(EnvironmentMaps, AnOctahedralMapHasNoSeam) {
@@ -323,7 +323,7 @@ TEST(EnvironmentMaps, AnIrradianceMapIsTheSum) {
     sun.radiance.at(60, 40, 1) = 1000;
     const EnvironmentMaps hard = makeEnvironmentMaps(sun, {{16, 1}, true});
     EXPECT_NEAR(truncationError(hard, 0).worst, 0.094, 0.01);
-    EXPECT_GT(truncationError(hard, leastWindow(hard.harmonics)).worst, truncationError(hard, 0).worst);
+    EXPECT_GT(truncationError(hard, minWindow(hard.harmonics)).worst, truncationError(hard, 0).worst);
 }
 
 TEST(EnvironmentMaps, NodesHaveNoFoldAndNoSeam) {

@@ -21,12 +21,12 @@ using namespace std::string_literals;
 using Names = std::vector<std::string>;
 
 ImageFile partsOf(const std::string& file, std::string_view part = {},
-                  std::uint64_t most = limits::imageBytes()) {
-    return readExr(std::as_bytes(std::span(file)), "a.exr", most, part);
+                  std::uint64_t max = limits::imageBytes()) {
+    return readExr(std::as_bytes(std::span(file)), "a.exr", max, part);
 }
 std::string partFault(const std::string& file, std::string_view part = {},
-                      std::uint64_t most = limits::imageBytes()) {
-    return faultOf([&] { partsOf(file, part, most); });
+                      std::uint64_t max = limits::imageBytes()) {
+    return faultOf([&] { partsOf(file, part, max); });
 }
 
 Names layerNames(const ImageFile& file) {

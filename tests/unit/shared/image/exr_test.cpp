@@ -27,8 +27,8 @@ using namespace std::string_literals;
 std::span<const std::byte> bytesIn(const std::string& file) {
     return std::as_bytes(std::span(file));
 }
-std::string exrFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
-    return faultOf([&] { readExr(bytesIn(file), "a.exr", most); });
+std::string exrFault(const std::string& file, std::uint64_t max = limits::imageBytes()) {
+    return faultOf([&] { readExr(bytesIn(file), "a.exr", max); });
 }
 
 // Pixels of channels i (half), j (float), k (uint): 0.5, 0.25 and 3, from the window's top left.

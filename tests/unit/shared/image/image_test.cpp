@@ -180,9 +180,9 @@ TEST(Png, ClaimsAreCheckedBeforeMemoryIsTaken) {
     writePng(file, colors(64, 64, 3));
     const std::string whole = contentsOf(file), size = std::to_string(whole.size());
     const auto fault = [&](std::uint32_t width, std::uint32_t height,
-                           std::uint64_t most = limits::imageBytes()) {
+                           std::uint64_t max = limits::imageBytes()) {
         const std::string png = claiming(whole, width, height);
-        return faultOf([&] { readPng(std::as_bytes(std::span(png)), "a.png", most); });
+        return faultOf([&] { readPng(std::as_bytes(std::span(png)), "a.png", max); });
     };
     EXPECT_EQ(fault(64, 64), "");
     EXPECT_EQ(fault(64, 64, 64 * 64 * 12 - 1),

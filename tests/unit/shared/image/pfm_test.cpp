@@ -30,11 +30,11 @@ std::string big(const Values& values) {
     return bytes;
 }
 
-PfmImage pfmOf(const std::string& file, std::uint64_t most = limits::imageBytes()) {
-    return readPfm(std::as_bytes(std::span(file)), "a.pfm", most);
+PfmImage pfmOf(const std::string& file, std::uint64_t max = limits::imageBytes()) {
+    return readPfm(std::as_bytes(std::span(file)), "a.pfm", max);
 }
-std::string pfmFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
-    return faultOf([&] { pfmOf(file, most); });
+std::string pfmFault(const std::string& file, std::uint64_t max = limits::imageBytes()) {
+    return faultOf([&] { pfmOf(file, max); });
 }
 
 TEST(Pfm, RowsAreStoredFromTheBottom) {

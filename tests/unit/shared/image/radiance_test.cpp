@@ -25,8 +25,8 @@ std::string hdr(const std::string& resolution, const std::string& pixels, const 
 Image radianceOf(const std::string& file) {
     return readHdr(std::as_bytes(std::span(file)), "a.hdr").image;
 }
-std::string radianceFault(const std::string& file, std::uint64_t most = limits::imageBytes()) {
-    return faultOf([&] { readHdr(std::as_bytes(std::span(file)), "a.hdr", most); });
+std::string radianceFault(const std::string& file, std::uint64_t max = limits::imageBytes()) {
+    return faultOf([&] { readHdr(std::as_bytes(std::span(file)), "a.hdr", max); });
 }
 
 TEST(Radiance, AMantissaIsTheMiddleOfItsStep) {

@@ -66,13 +66,13 @@ std::string stored(const std::vector<T>& values) {
     return out;
 }
 
-TiffImage read(const MadeTiff& file, std::uint64_t most = 1 << 20) {
+TiffImage read(const MadeTiff& file, std::uint64_t max = 1 << 20) {
     const std::string bytes = file.bytes();
-    return readTiff(std::as_bytes(std::span(bytes)), "a.tif", most);
+    return readTiff(std::as_bytes(std::span(bytes)), "a.tif", max);
 }
 
-std::string tiffFault(const std::string& bytes, std::uint64_t most = 1 << 20) {
-    return faultOf([&] { readTiff(std::as_bytes(std::span(bytes)), "a.tif", most); });
+std::string tiffFault(const std::string& bytes, std::uint64_t max = 1 << 20) {
+    return faultOf([&] { readTiff(std::as_bytes(std::span(bytes)), "a.tif", max); });
 }
 
 TEST(Tiff, EverySampleIsReadAsItIs) {

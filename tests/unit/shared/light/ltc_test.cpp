@@ -140,13 +140,13 @@ TEST(Ltc, AChangedCellIsWorse) {
     for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{0, 40}, {13, 31}, {30, 10}})
         for (const Fitted& f : bothLobes(i, j)) {
             const Transform t = f.transform();
-            const double least{f.fit.error};
+            const double min{f.fit.error};
             for (const double sign : {-1.0, 1.0}) {
                 const double factor = 1 + 0.05 * sign;
-                EXPECT_GT(f.error({t.a * factor, t.b, t.c, t.tilt}), least) << i << " " << j;
-                EXPECT_GT(f.error({t.a, t.b * factor, t.c, t.tilt}), least) << i << " " << j;
-                EXPECT_GT(f.error({t.a, t.b, t.c * factor, t.tilt}), least) << i << " " << j;
-                EXPECT_GT(f.error({t.a, t.b, t.c, t.tilt + 0.02 * sign}), least) << i << " " << j;
+                EXPECT_GT(f.error({t.a * factor, t.b, t.c, t.tilt}), min) << i << " " << j;
+                EXPECT_GT(f.error({t.a, t.b * factor, t.c, t.tilt}), min) << i << " " << j;
+                EXPECT_GT(f.error({t.a, t.b, t.c * factor, t.tilt}), min) << i << " " << j;
+                EXPECT_GT(f.error({t.a, t.b, t.c, t.tilt + 0.02 * sign}), min) << i << " " << j;
             }
         }
 }

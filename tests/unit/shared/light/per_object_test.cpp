@@ -393,7 +393,7 @@ TEST(PerObject, EqualLightsAreRankedByTheScenesOrder) {
 // A light that becomes brighter than several equal ones replaces the last of them gradually.
 TEST(PerObject, EqualLightsMakeRoomWithoutAPop) {
     std::vector<LightShares> before;
-    double largest = 0, least = 1;
+    double largest = 0, min = 1;
     for (double candela = 0.5; candela < 12; candela *= 1.003) {
         std::vector<Light> lights(8, sun(1));
         lights.push_back(point({0, 0, 2}, static_cast<float>(candela)));
@@ -408,11 +408,11 @@ TEST(PerObject, EqualLightsMakeRoomWithoutAPop) {
         }
         EXPECT_NEAR(sum, 3, 1e-12) << candela;
         EXPECT_EQ(shares[1].pixel, 1);
-        least = std::min(least, shares[2].pixel);
+        min = std::min(min, shares[2].pixel);
         before = shares;
     }
     EXPECT_LT(largest, 0.01);
-    EXPECT_LT(least, 0.01) << "in the end the third sun has none";
+    EXPECT_LT(min, 0.01) << "in the end the third sun has none";
 }
 
 TEST(PerObject, AnObjectWithALightmapHasNoHarmonics) {

@@ -29,25 +29,25 @@ std::uint32_t bytesOf(GBufferEncoding encoding, const Requirements& needs) {
 }
 
 TEST(GBufferLayout, HoldsWhatTheMaterialsNeed) {
-    for (const auto& [encoding, least, emission, more] :
+    for (const auto& [encoding, min, emission, more] :
          {std::tuple{GBufferEncoding::compact, 12u, 4u, 4u},
           {GBufferEncoding::standard, 16u, 4u, 4u},
           {GBufferEncoding::full, 64u, 0u, 16u}}) {  // full stores the material's index with the emission
         const Requirements none = noneNeeded();
-        EXPECT_EQ(bytesOf(encoding, none), least);
+        EXPECT_EQ(bytesOf(encoding, none), min);
         Requirements needs = none;
         needs.emission = true;
         needs.max_emission = needs.min_emission = 1;
-        EXPECT_EQ(bytesOf(encoding, needs), least + emission);
+        EXPECT_EQ(bytesOf(encoding, needs), min + emission);
         needs = none;
         needs.dielectric_specular = true;
-        EXPECT_EQ(bytesOf(encoding, needs), least + more);
+        EXPECT_EQ(bytesOf(encoding, needs), min + more);
         needs = none;
         needs.lightmap = true;
         needs.max_lightmap = 1;
-        EXPECT_EQ(bytesOf(encoding, needs), least + more);
+        EXPECT_EQ(bytesOf(encoding, needs), min + more);
         needs.dielectric_specular = true;
-        EXPECT_EQ(bytesOf(encoding, needs), least + 2 * more);
+        EXPECT_EQ(bytesOf(encoding, needs), min + 2 * more);
     }
 }
 

@@ -224,8 +224,8 @@ TEST(Requirements, AThicknessTextureChoosesInARange) {
     Scene scene = plainScene();
     for (Material& m : scene.materials) {
         m.iridescence = 1;
-        m.iridescence_thickness_least = 500;
-        m.iridescence_thickness_most = 200;
+        m.iridescence_thickness_min = 500;
+        m.iridescence_thickness_max = 200;
     }
     scene.materials[1].iridescence_thickness_texture.texture = 0;
     EXPECT_EQ(of(scene).film_thickness_range, 0) << "of an unused material";

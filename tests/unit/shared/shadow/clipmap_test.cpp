@@ -267,13 +267,13 @@ TEST(ClipmapCache, ASmallPoolFallsBackStepByStep) {
     const auto farthestBack = [&](std::size_t slots) {
         ClipmapCache cache(static_cast<std::uint32_t>(slots));
         const ServedPages served = cache.serve(map, marks);
-        std::size_t most = 0, whole = 0;
+        std::size_t max = 0, whole = 0;
         for (std::size_t i = 0; i < map.pages(); ++i) {
             if ((marks[i / 32] >> (i % 32) & 1u) == 0) continue;
-            most = std::max(most, served.table[i].level - map.placeOf(i).level);
+            max = std::max(max, served.table[i].level - map.placeOf(i).level);
             whole += served.table[i].level + 1 == map.levels.size();
         }
-        return std::pair(most, whole);
+        return std::pair(max, whole);
     };
     const std::size_t all = countOf(marks);
     EXPECT_LE(farthestBack(all / 2).first, 3u);

@@ -86,7 +86,7 @@ TEST(LocalAtlas, TilesShareNoTexel) {
             LocalAtlas atlas = atlasOf(lights, lookingFrom({4, 2, 12}, {0, 1, 0}), {.size = size});
             ASSERT_FALSE(atlas.tiles.empty());
             EXPECT_EQ(texelsNotOwnedOnce(atlas), 0u) << count << " " << size;
-            for (const AtlasTile& tile : atlas.tiles) EXPECT_GE(tile.size, leastTile);
+            for (const AtlasTile& tile : atlas.tiles) EXPECT_GE(tile.size, minTile);
             // Negative control.
             atlas.tiles.back().corner.x += atlas.tiles.size() > 1 ? -1 : 1;
             EXPECT_GT(texelsNotOwnedOnce(atlas), 0u) << count << " " << size;

@@ -52,7 +52,7 @@ void add(Fingerprint& f, const Material& m) {
           m.attenuation_distance, m.attenuation_color, m.dispersion, m.diffuse_transmission,
           m.diffuse_transmission_color, m.clearcoat, m.clearcoat_roughness, m.clearcoat_normal_scale,
           m.anisotropy, m.anisotropy_rotation, m.sheen_color, m.sheen_roughness, m.iridescence,
-          m.iridescence_ior, m.iridescence_thickness_least, m.iridescence_thickness_most, m.alpha_mode,
+          m.iridescence_ior, m.iridescence_thickness_min, m.iridescence_thickness_max, m.alpha_mode,
           m.alpha_cutoff, m.double_sided, m.unlit, m.specular_glossiness);
     for (const MaterialSlot& slot : materialSlots) {
         const TextureSlot& s = m.*slot.texture;

@@ -86,7 +86,7 @@ TEST(GltfAnimationPointer, MovesEveryPropertyThatIsModelled) {
     };
     for (const TestedLayer& layer : testedLayers())
         for (const LayerFactor& f : layer.factors)
-            if (f.least < 0.25)
+            if (f.min < 0.25)
                 cases.emplace_back(fmt::format("{}extensions/KHR_materials_{}/{}", m, f.extension, f.key),
                                    f.width(), [&rgb, f](const Scene& s, const Pose& p) {
                                        std::vector<double> numbers = rgb(f.of(materialAt(s, p)));
@@ -287,8 +287,8 @@ TEST(GltfAnimationPointer, FilmsStayWithinTheirRange) {
     const Material first = poseAt(scene, 0).materials.at(0), last = poseAt(scene, 1).materials.at(0);
     EXPECT_EQ(first.iridescence_ior, 1);
     EXPECT_EQ(last.iridescence_ior, 2);
-    EXPECT_EQ(first.iridescence_thickness_most, 0);
-    EXPECT_EQ(last.iridescence_thickness_most, 65504);
+    EXPECT_EQ(first.iridescence_thickness_max, 0);
+    EXPECT_EQ(last.iridescence_thickness_max, 65504);
     EXPECT_TRUE(mentions(scene.notes, "channel 1: -1 is outside 0 to 65504: the nearest value is used"));
 }
 

@@ -172,8 +172,8 @@ TEST_P(GltfLayer, RequiredExtensionsAreSupported) {
 
 TEST_P(GltfLayer, FactorsOutsideTheirRangeAreNoted) {
     for (const LayerFactor& f : GetParam().factors)
-        for (const double x : {f.least - 1, 0.0, 2 * f.most}) {
-            const double nearest = std::clamp(x, f.least, f.most);
+        for (const double x : {f.min - 1, 0.0, 2 * f.max}) {
+            const double nearest = std::clamp(x, f.min, f.max);
             if (!std::isfinite(x) || x == nearest) continue;
             const Scene scene = file(with(f, f.width() == 1 ? Json(x) : Json({0.25, 0.5, x}))).load();
             const auto used = static_cast<float>(nearest);
@@ -181,7 +181,7 @@ TEST_P(GltfLayer, FactorsOutsideTheirRangeAreNoted) {
                       f.width() == 1 ? glm::vec3(used, 0, 0) : glm::vec3(0.25f, 0.5f, used))
                 << f.key;
             const std::string note = fmt::format("material 0: {} {} is outside {:g} to {:g}: {:g} is used",
-                                                 f.key, x, f.least, f.most, nearest);
+                                                 f.key, x, f.min, f.max, nearest);
             EXPECT_TRUE(mentions(scene.notes, note)) << note;
         }
 }

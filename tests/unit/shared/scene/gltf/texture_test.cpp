@@ -386,6 +386,6 @@ TEST(GltfTexture, AllImagesTogetherHaveALimit) {
         f.json["meshes"][0]["primitives"].push_back(f.primitive());
         f.json["meshes"][0]["primitives"].back()["material"] = f.json["materials"].size() - 1;
     }
-    const std::string most = std::to_string(limits::imageBytes() >> 20);
-    EXPECT_TRUE(f.error().ends_with("MiB; the limit is " + most + " MiB")) << f.error();
+    const std::string max = std::to_string(limits::imageBytes() >> 20);
+    EXPECT_TRUE(f.error().ends_with("MiB; the limit is " + max + " MiB")) << f.error();
 }

@@ -434,8 +434,8 @@ TEST(ImageDecode, AJpegIsAnImageOfTheSameBytes) {
     ASSERT_EQ(notes.size(), 2u);
     EXPECT_EQ(notes[0], "its pixels are not square (aspect 0.5) but are shown square");
     EXPECT_TRUE(notes[1].starts_with("its colour profile (3 bytes, ")) << notes[1];
-    const auto imageFault = [](std::span<const unsigned char> bytes, std::uint64_t most) {
-        return faultOf([&] { readImage(std::as_bytes(bytes), "a.jpg", {}, most); });
+    const auto imageFault = [](std::span<const unsigned char> bytes, std::uint64_t max) {
+        return faultOf([&] { readImage(std::as_bytes(bytes), "a.jpg", {}, max); });
     };
     EXPECT_TRUE(imageFault(std::span(file).first(file.size() / 2), 1 << 20).starts_with("a.jpg: ")) << "cut";
     EXPECT_TRUE(imageFault(file, 100).starts_with("a.jpg: ")) << "more memory than allowed";

@@ -48,9 +48,9 @@ glm::dvec3 clearSky(const glm::dvec3& d) {
 }
 
 Environment sunnySky(const glm::dvec3& to_sun, double degrees, const glm::dvec3& sun, int height = 256) {
-    const double least = std::cos(glm::radians(degrees / 2));
+    const double min = std::cos(glm::radians(degrees / 2));
     return painted(2 * height, height, [&](const glm::dvec3& d) {
-        return clearSky(d) + (glm::dot(d, to_sun) >= least ? sun : glm::dvec3(0));
+        return clearSky(d) + (glm::dot(d, to_sun) >= min ? sun : glm::dvec3(0));
     });
 }
 

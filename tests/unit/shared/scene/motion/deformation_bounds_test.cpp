@@ -196,16 +196,16 @@ TEST(DeformationBounds, CostDoesNotGrowWithTheVertices) {
     const auto millisecondsOf = [](const Scene& scene) {
         const Pose pose = poseAt(scene, 0);
         const Deformation deformation{glm::dmat4(1), &pose.skins[0], &pose.weights[0]};
-        double least = 1e9;
+        double min = 1e9;
         for (int i = 0; i < 5; ++i) {
             const auto start = std::chrono::steady_clock::now();
             const WorldBox box = boundsOf(scene.meshes[0].primitives[0].deformation_bounds, deformation);
             EXPECT_GT(box.max.x, box.min.x);
-            least = std::min(
-                least,
+            min = std::min(
+                min,
                 std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
         }
-        return least;
+        return min;
     };
     PoseBuilder builder;
     Scene large = builder.posed(star(8, 8, 1000000)), small = builder.posed(star(8, 8, 20000));

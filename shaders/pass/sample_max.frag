@@ -11,10 +11,10 @@ layout(location = 0) out vec4 out_texel;
 
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
-    vec4 most = texelFetch(samples, p, 0);
+    vec4 largest = texelFetch(samples, p, 0);
     int i = 1;
     do {
-        most = max(most, texelFetch(samples, p, i));
+        largest = max(largest, texelFetch(samples, p, i));
     } while (++i < int(feature_samples));
-    out_texel = most;
+    out_texel = largest;
 }
