@@ -4,7 +4,7 @@
 #include "compare/cli/option_groups.h"
 #include "compare/experiment/two_devices.h"
 #include "compare/explain/conventions.h"
-#include "compare/explain/device_shares.h"
+#include "compare/explain/device_contributions.h"
 #include "compare/explain/explain.h"
 #include "compare/explain/explanations.h"
 #include "compare/explain/images.h"
@@ -178,7 +178,7 @@ int explainScene(const ExplainLine& options) {
     RenderOptions drawing = renderOptions(options);
     drawing.channels = explainedChannels();
     if (other)
-        for (const Channel mode : deviceShareChannels())
+        for (const Channel mode : deviceContributionChannels())
             if (std::ranges::count(drawing.channels, mode) == 0) drawing.channels.push_back(mode);
     drawing.runs = 0;
     drawing.progress = stage.part(0.1, 0.25);
@@ -193,10 +193,10 @@ int explainScene(const ExplainLine& options) {
     Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.4, 1));
     if (other) {
         explanation.devices =
-            deviceShares(explanation, a, b,
-                         experiment::acrossDevices(
-                             scene, views.at(viewRequest(a.settings)),
-                             precisionsOf(device, *other, !scene.textures.empty(), test.textures), a));
+            deviceContributions(explanation, a, b,
+                                experiment::acrossDevices(
+                                    scene, views.at(viewRequest(a.settings)),
+                                    precisionsOf(device, *other, !scene.textures.empty(), test.textures), a));
         checkValidation(*other);
     }
     checkValidation(device);

@@ -30,13 +30,13 @@ using page::number;
 
 namespace {
 
-// A row names at most three materials and three lights, each with at least 5 % of the cause's share.
+// A row names at most three materials and three lights, each with at least 5 % of the cause's contribution.
 constexpr std::size_t shownParts = 3;
 constexpr double shownPart = 0.05;
 constexpr const char* litFiles[] = {"lit.baseline.png", "lit.test.png"};
 
-std::string percent(double share) {
-    return fmt::format("{:.2f} %", 100 * share);
+std::string percent(double contribution) {
+    return fmt::format("{:.2f} %", 100 * contribution);
 }
 
 // "78 % material 12, Lantern glass; 9 % background; 60 % light 3, lamp".
@@ -44,10 +44,10 @@ std::string partsOf(const Cause& cause) {
     std::vector<std::string> words;
     for (const auto& [parts, noun] : {std::pair{&cause.materials, "material"}, {&cause.lights, "light"}})
         for (const CausePart& part : std::span(*parts).first(std::min(parts->size(), shownParts))) {
-            const double share = cause.share != 0 ? part.share / cause.share : 0;
-            if (share < shownPart) break;
+            const double contribution = cause.contribution != 0 ? part.contribution / cause.contribution : 0;
+            if (contribution < shownPart) break;
             words.push_back(
-                fmt::format("{:.0f} % {}{}{}", 100 * share,
+                fmt::format("{:.0f} % {}{}{}", 100 * contribution,
                             part.index < 0 ? "background" : fmt::format("{} {}", noun, part.index),
                             part.name.empty() ? "" : ", ", part.name));
         }
@@ -83,18 +83,18 @@ output::Table causeTable(const Explanation& e) {
             "this cause is swapped; last: it is swapped after all others. Largest at: share of the affected "
             "pixels where this cause is the largest. There: its share at its worst pixel, W/(sr m^2).",
         .indent = 2};
-    const auto percentOf = [&](double share) { return percent(e.shareOf(share)); };
+    const auto percentOf = [&](double contribution) { return percent(e.fractionOf(contribution)); };
     for (const Cause& cause : e.causes)
         table.rows.push_back(
             {{output::Text{swatch(e, cause), cause.name},
-              percentOf(cause.share) + (cause.interval > 0 ? " +- " + percentOf(cause.interval) : ""),
-              percent(e.shareOfFlip(cause.flip)), percentOf(cause.alone), percentOf(cause.last),
+              percentOf(cause.contribution) + (cause.interval > 0 ? " +- " + percentOf(cause.interval) : ""),
+              percent(e.fractionOfFlip(cause.flip)), percentOf(cause.alone), percentOf(cause.last),
               fmt::format("{:.1f} %", 100 * cause.dominates),
               fmt::format("{},{}", cause.worst_x, cause.worst_y), number(cause.worst), cause.shows,
               partsOf(cause)}});
     table.rows.push_back(
-        {{"unexplained", percentOf(e.unexplained), percent(e.shareOfFlip(e.flip_unexplained)), "", "", "", "",
-          "", "remains with every cause swapped", "no channel and no Setting describes it"},
+        {{"unexplained", percentOf(e.unexplained), percent(e.fractionOfFlip(e.flip_unexplained)), "", "", "",
+          "", "", "remains with every cause swapped", "no channel and no Setting describes it"},
          "soft"});
     return table;
 }
@@ -104,8 +104,8 @@ output::Table deviceTable(const Explanation& e) {
         .columns = {{"across devices"}, {"share", Column::number}, {"description", Column::prose}},
         .box = "box scroll devices",
         .indent = 2};
-    for (const DeviceShare& part : e.devices)
-        table.rows.push_back({{part.name, percent(e.shareOf(part.share)), part.shows}});
+    for (const DeviceContribution& part : e.devices)
+        table.rows.push_back({{part.name, percent(e.fractionOf(part.contribution)), part.shows}});
     return table;
 }
 
@@ -117,7 +117,8 @@ output::List remarks(const Explanation& e, const ExplainedImages& of) {
                         counted(e.nonfinite, "pixel")));
     for (const auto& [first, second, interaction] : e.pairs)
         add(fmt::format("{} and {} {} (interaction {:+.1f} %)", e.causes[first].name, e.causes[second].name,
-                        interaction < 0 ? "are redundant" : "hide each other", 100 * e.shareOf(interaction)));
+                        interaction < 0 ? "are redundant" : "hide each other",
+                        100 * e.fractionOf(interaction)));
     if (!e.without_effect.empty())
         add(fmt::format("differs without an effect on any pixel: {}", fmt::join(e.without_effect, ", ")));
     if (e.reproduction[0] != 0 || e.reproduction[1] != 0)
@@ -142,10 +143,11 @@ std::vector<Block> imageBlocks(const Explanation& e, const ExplainedImages& of) 
     };
     if (e.distance > 0) add(differenceFile, "their difference", "difference");
     for (std::size_t i = 0; i < e.causes.size(); ++i)
-        add(shareFile(e, i), "share of " + e.causes[i].name,
-            {swatch(e, e.causes[i]), e.causes[i].name + " " + percent(e.shareOf(e.causes[i].share))});
+        add(contributionFile(e, i), "share of " + e.causes[i].name,
+            {swatch(e, e.causes[i]),
+             e.causes[i].name + " " + percent(e.fractionOf(e.causes[i].contribution))});
     if (!e.causes.empty() && e.unexplained > 0)
-        add(unexplainedFile, "the unexplained part", "unexplained " + percent(e.shareOf(e.unexplained)));
+        add(unexplainedFile, "the unexplained part", "unexplained " + percent(e.fractionOf(e.unexplained)));
     std::vector<Block> blocks{Heading{2, "The pictures"}, maps};
     if (e.distance > 0)
         blocks.insert(blocks.begin() + 1,
@@ -165,12 +167,12 @@ std::string headlineOf(const Explanation& e) {
     const auto listed = [&](const auto& parts) {
         std::vector<std::string> words;
         for (const auto& part : parts)
-            words.push_back(fmt::format("{} {:.1f} %", part.name, 100 * e.shareOf(part.share)));
+            words.push_back(fmt::format("{} {:.1f} %", part.name, 100 * e.fractionOf(part.contribution)));
         return fmt::format("{}", fmt::join(words, ", "));
     };
     return fmt::format("lit differs {}{}; unexplained {:.1f} %{}{}",
                        e.causes.empty() ? "for an unknown reason" : "because of ", listed(e.causes),
-                       100 * e.shareOf(e.unexplained), e.devices.empty() ? "" : "; across devices by ",
+                       100 * e.fractionOf(e.unexplained), e.devices.empty() ? "" : "; across devices by ",
                        listed(e.devices));
 }
 

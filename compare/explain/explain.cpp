@@ -5,7 +5,7 @@
 #include "compare/explain/channel_lighting.h"
 #include "compare/explain/explained_sides.h"
 #include "compare/explain/frame_images.h"
-#include "compare/explain/light_shares.h"
+#include "compare/explain/light_contributions.h"
 #include "compare/explain/shapley.h"
 #include "compare/explain/undeclared_settings.h"
 #include "compare/frames/frame_properties.h"
@@ -72,28 +72,28 @@ Image imageOf(const std::vector<double>& values, const Image& like) {
     return image;
 }
 
-// Each material's part of a cause's share, by channel material_id. `map`: the cause's.
+// Each material's part of a cause's contribution, by channel material_id. `map`: the cause's.
 std::vector<CausePart> byMaterial(const std::vector<double>& map, const Image& ids, const Scene& scene) {
     std::map<int, double> sums;
     for (std::size_t p = 0; p < map.size(); ++p)
         sums[materialOf(ids.pixel(p), scene)] += map[p] / static_cast<double>(map.size());
-    std::vector<CausePart> shares;
+    std::vector<CausePart> contributions;
     for (const auto& [id, sum] : sums)
-        shares.push_back(
+        contributions.push_back(
             {id, id >= 0 ? scene.materials[static_cast<std::size_t>(id)].name : std::string(), sum});
-    return shares;
+    return contributions;
 }
 
-// Sorts parts, the largest in the sign of the cause's share first.
+// Sorts parts, the largest in the sign of the cause's contribution first.
 std::vector<CausePart> descending(std::vector<CausePart> parts, double sign) {
     std::ranges::stable_sort(parts, std::ranges::greater(),
-                             [sign](const CausePart& part) { return sign * part.share; });
+                             [sign](const CausePart& part) { return sign * part.contribution; });
     return parts;
 }
 
 // The results of taking the causes.
 struct AblationResults {
-    Shares shares;
+    Contributions contributions;
     std::vector<std::vector<double>> maps;  // of each cause, as Cause::map: one value per pixel
     std::vector<double> flip;               // of each cause, as Cause::flip
 };
@@ -131,20 +131,22 @@ AblationResults ablate(Ablation& ablation, const Image& lit, const Stage& progre
         });
     }
     const SubsetValue value = [&](Subset subset) { return values.at(subset); };
-    results.shares = exact ? exactShares(count, value) : sampledShares(count, value, sampledOrderCount, 1);
+    results.contributions =
+        exact ? exactContributions(count, value) : sampledContributions(count, value, sampledOrderCount, 1);
     return results;
 }
 
 // Pairs of causes that interact. `order`: the causes with an effect, descending by share.
-std::vector<CausePair> pairsOf(const Shares& shares, const std::vector<std::size_t>& order, double distance) {
+std::vector<CausePair> pairsOf(const Contributions& contributions, const std::vector<std::size_t>& order,
+                               double distance) {
     std::vector<CausePair> pairs;
-    if (shares.interaction.empty()) return pairs;
+    if (contributions.interaction.empty()) return pairs;
     const auto placeOf = [&](std::size_t cause) {
         return static_cast<std::size_t>(std::ranges::find(order, cause) - order.begin());
     };
-    for (std::size_t j = 1; j < shares.share.size(); ++j)
+    for (std::size_t j = 1; j < contributions.contribution.size(); ++j)
         for (std::size_t i = 0; i < j; ++i) {
-            const double both = shares.interaction[i + j * (j - 1) / 2];
+            const double both = contributions.interaction[i + j * (j - 1) / 2];
             const std::size_t a = placeOf(i), b = placeOf(j);
             if (std::max(a, b) < order.size() && std::abs(both) > namedPair * distance)
                 pairs.push_back({std::min(a, b), std::max(a, b), both});
@@ -157,13 +159,15 @@ std::vector<CausePair> pairsOf(const Shares& shares, const std::vector<std::size
 
 // Stores the causes, the dominant one at each pixel, and interacting pairs in `found`.
 void rank(const AblationResults& results, const Ablation& ablation, const Scene& scene, Explanation& found) {
-    const Shares& shares = results.shares;
+    const Contributions& contributions = results.contributions;
     std::vector<std::size_t> order(ablation.causes().size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return shares.share[i]; });
+    std::ranges::stable_sort(order, std::ranges::greater(),
+                             [&](std::size_t i) { return contributions.contribution[i]; });
     // Removes Settings without effect.
     std::erase_if(order, [&](std::size_t i) {
-        const bool has_effect = shares.share[i] != 0 || shares.alone[i] != 0 || shares.last[i] != 0;
+        const bool has_effect =
+            contributions.contribution[i] != 0 || contributions.alone[i] != 0 || contributions.last[i] != 0;
         if (!has_effect) found.without_effect.push_back(ablation.causes()[i].title());
         return !has_effect;
     });
@@ -171,16 +175,16 @@ void rank(const AblationResults& results, const Ablation& ablation, const Scene&
     for (const std::size_t i : order) {
         const AblationCause& cause = ablation.causes()[i];
         const std::vector<double>& map = results.maps[i];
-        // For a negative share, the pixel where it is most negative.
-        const double sign = shares.share[i] < 0 ? -1 : 1;
+        // For a negative contribution, the pixel where it is most negative.
+        const double sign = contributions.contribution[i] < 0 ? -1 : 1;
         const auto worst = static_cast<int>(
             std::ranges::max_element(map, {}, [sign](double at) { return sign * at; }) - map.begin());
         found.causes.push_back({.name = cause.title(),
                                 .shows = cause.shows,
-                                .share = shares.share[i],
-                                .interval = shares.interval[i],
-                                .alone = shares.alone[i],
-                                .last = shares.last[i],
+                                .contribution = contributions.contribution[i],
+                                .interval = contributions.interval[i],
+                                .alone = contributions.alone[i],
+                                .last = contributions.last[i],
                                 .worst = map[static_cast<std::size_t>(worst)],
                                 .worst_x = worst % ids.width,
                                 .worst_y = worst / ids.width,
@@ -202,7 +206,7 @@ void rank(const AblationResults& results, const Ablation& ablation, const Scene&
     for (std::size_t k = 0; with_cause > 0 && k < order.size(); ++k)
         found.causes[k].dominates = static_cast<double>(std::ranges::count(places, static_cast<float>(k))) /
                                     static_cast<double>(with_cause);
-    found.pairs = pairsOf(shares, order, found.distance);
+    found.pairs = pairsOf(contributions, order, found.distance);
 }
 
 }  // namespace

@@ -11,20 +11,20 @@
 
 namespace diptych {
 
-// A material's or a light's part of a cause's share.
+// A material's or a light's part of a cause's contribution.
 struct CausePart {
-    int index = -1;    // of the material in the scene, -1: the background; or in SceneView::lights
-    std::string name;  // a material's may be empty; without a name, a light has that of its type
-    double share = 0;  // W/(sr m^2), as Cause::share
+    int index = -1;           // of the material in the scene, -1: the background; or in SceneView::lights
+    std::string name;         // a material's may be empty; without a name, a light has that of its type
+    double contribution = 0;  // W/(sr m^2), as Cause::contribution
 };
 
 struct Cause {
     std::string name;            // "normals"; "--haze"; "samples of a pixel"
     std::string shows;           // description
-    double share = 0;            // of Explanation::distance, W/(sr m^2)
+    double contribution = 0;     // of Explanation::distance, W/(sr m^2)
     double interval = 0;         // half the 95 % confidence interval; 0: exact
     double alone = 0, last = 0;  // effect of swapping it alone; effect of swapping it last
-    double worst = 0;            // the largest share of a pixel, W/(sr m^2)
+    double worst = 0;            // the largest contribution of a pixel, W/(sr m^2)
     int worst_x = 0, worst_y = 0;
     double dominates = 0;  // fraction, 0 to 1, of the pixels with any cause where this one is the largest
     // Its share of the mean HDR-FLIP, by the same orders. All shares and
@@ -46,9 +46,9 @@ struct CausePair {
 };
 
 // A source's part of the distance between one path on two devices.
-struct DeviceShare {
+struct DeviceContribution {
     std::string name, shows;  // "textures"; its description
-    double share = 0;         // W/(sr m^2), as Cause::share
+    double contribution = 0;  // W/(sr m^2), as Cause::contribution
 };
 
 struct Explanation {
@@ -58,7 +58,8 @@ struct Explanation {
     double flip = 0, flip_unexplained = 0;  // the same for mean HDR-FLIP
     std::vector<Cause> causes;              // descending by share
     std::vector<CausePair> pairs;           // those above 5 % of the distance, the largest first
-    std::vector<DeviceShare> devices;       // for two devices (device_shares.h), descending; else empty
+    std::vector<DeviceContribution>
+        devices;  // for two devices (device_contributions.h), descending; else empty
     // Relative residual of relighting, baseline and test: mean difference between the relit channels and
     // lit, as a fraction of the mean of lit.
     std::array<double, 2> reproduction{};
@@ -67,14 +68,14 @@ struct Explanation {
     std::vector<std::string> without_effect;  // names of differences that change no pixel
     // Numbers of lights rendered alone for Cause::lights, and of those omitted as too many; 0: none.
     std::size_t lights_drawn = 0, lights_left_out = 0;
-    // W x H x 1: index into `causes` of the largest share at the pixel; -1 where no cause brings lit
+    // W x H x 1: index into `causes` of the largest contribution at the pixel; -1 where no cause brings lit
     // nearer.
     Image dominant;
     Image unexplained_map;  // W x H x 1, as Cause::map; all maps sum to the pixel's difference
 
     // A share as a fraction of the distance; 0 if the distance is 0.
-    double shareOf(double share) const { return distance > 0 ? share / distance : 0.0; }
-    double shareOfFlip(double share) const { return flip > 0 ? share / flip : 0.0; }
+    double fractionOf(double contribution) const { return distance > 0 ? contribution / distance : 0.0; }
+    double fractionOfFlip(double contribution) const { return flip > 0 ? contribution / flip : 0.0; }
 };
 
 }  // namespace diptych

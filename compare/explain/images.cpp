@@ -44,7 +44,7 @@ Color8 causeColor(std::size_t place) {
     return place < ownColors ? palette[place] : otherColor;
 }
 
-std::string shareFile(const Explanation& explanation, std::size_t cause) {
+std::string contributionFile(const Explanation& explanation, std::size_t cause) {
     std::string name = explanation.causes.at(cause).name;
     name.erase(0, name.find_first_not_of('-'));
     for (char& c : name)
@@ -82,14 +82,14 @@ double topOfMaps(const Explanation& explanation) {
     return double{*at};
 }
 
-Image8 shareImage(const Image& shares, double top) {
-    Image positive = shares;
-    for (float& share : positive.data) share = std::max(share, 0.0f);
+Image8 contributionImage(const Image& contributions, double top) {
+    Image positive = contributions;
+    for (float& contribution : positive.data) contribution = std::max(contribution, 0.0f);
     Image8 image = errorMap(positive, top);
-    for (std::size_t p = 0; p < shares.pixels(); ++p) {
-        const double share = double{shares.pixel(p)[0]};
-        if (!(share < 0) || !(top > 0)) continue;
-        const double t = std::sqrt(std::min(1.0, -share / top));
+    for (std::size_t p = 0; p < contributions.pixels(); ++p) {
+        const double contribution = double{contributions.pixel(p)[0]};
+        if (!(contribution < 0) || !(top > 0)) continue;
+        const double t = std::sqrt(std::min(1.0, -contribution / top));
         put(image, p,
             {byteOf(t * negativeColor[0]), byteOf(t * negativeColor[1]), byteOf(t * negativeColor[2])});
     }
@@ -106,10 +106,10 @@ Image8 litImage(const Frame& frame, const Frame& baseline, const ImageChoice& ch
 
 std::vector<NamedImage> explanationMaps(const Explanation& explanation) {
     const double top = topOfMaps(explanation);
-    std::vector<NamedImage> maps{{differenceFile, shareImage(sumOfMaps(explanation), top)}};
+    std::vector<NamedImage> maps{{differenceFile, contributionImage(sumOfMaps(explanation), top)}};
     for (std::size_t i = 0; i < explanation.causes.size(); ++i)
-        maps.push_back({shareFile(explanation, i), shareImage(explanation.causes[i].map, top)});
-    maps.push_back({unexplainedFile, shareImage(explanation.unexplained_map, top)});
+        maps.push_back({contributionFile(explanation, i), contributionImage(explanation.causes[i].map, top)});
+    maps.push_back({unexplainedFile, contributionImage(explanation.unexplained_map, top)});
     return maps;
 }
 

@@ -30,10 +30,10 @@ struct NamedImage {
 inline constexpr const char* dominantFile = "dominant.png";
 inline constexpr const char* differenceFile = "difference.png";
 inline constexpr const char* unexplainedFile = "unexplained.png";
-std::string shareFile(const Explanation& explanation, std::size_t cause);  // "share-1.albedo.png"
+std::string contributionFile(const Explanation& explanation, std::size_t cause);  // "share-1.albedo.png"
 
-// The colour of the cause with the largest share at each pixel. Where no cause brings lit nearer, `shown`,
-// an image of the scene, is visible, dark and grey.
+// The colour of the cause with the largest contribution at each pixel. Where no cause brings lit nearer,
+// `shown`, an image of the scene, is visible, dark and grey.
 Image8 dominantImage(const Explanation& explanation, const Image8& shown);
 
 // The value at the end of the colours of explanationMaps(), W/(sr m^2): the 99.9th percentile of the
@@ -41,12 +41,12 @@ Image8 dominantImage(const Explanation& explanation, const Image8& shown);
 double topOfMaps(const Explanation& explanation);
 
 // W x H x 1 shares in the colours of errorMap(); blue where negative.
-Image8 shareImage(const Image& shares, double top);
+Image8 contributionImage(const Image& contributions, double top);
 
 // Both sides' lit as an image, with one exposure: channelImage().
 Image8 litImage(const Frame& frame, const Frame& baseline, const ImageChoice& choice);
 
-// The difference of both images, each cause's share of it, and the unexplained remainder, all on one
+// The difference of both images, each cause's contribution of it, and the unexplained remainder, all on one
 // scale.
 std::vector<NamedImage> explanationMaps(const Explanation& explanation);
 

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double namedPart = 0.01;  // of a cause's share
+constexpr double namedPart = 0.01;  // of a cause's contribution
 
 // By PixelTerm::Kind.
 constexpr std::array kinds{"light", "other_lights", "environment", "ambient", "emission", "transmittance",
@@ -95,32 +95,33 @@ Json termsJson(const PixelBreakdown& breakdown) {
 }  // namespace
 
 nlohmann::ordered_json toJson(const Explanation& e, const ExplainedImages& of) {
-    const auto deviceJson = [&](const DeviceShare& part) -> Json {
-        return {{"name", part.name}, {"share", e.shareOf(part.share)}, {"shows", part.shows}};
+    const auto deviceJson = [&](const DeviceContribution& part) -> Json {
+        return {{"name", part.name}, {"share", e.fractionOf(part.contribution)}, {"shows", part.shows}};
     };
     const auto partsJson = [&](const Cause& cause, const std::vector<CausePart>& parts, const char* index) {
         Json all = Json::array();
         for (const CausePart& part : parts)
-            if (std::abs(part.share) >= namedPart * std::abs(cause.share))
-                all.push_back({{index, part.index}, {"name", part.name}, {"share", e.shareOf(part.share)}});
+            if (std::abs(part.contribution) >= namedPart * std::abs(cause.contribution))
+                all.push_back(
+                    {{index, part.index}, {"name", part.name}, {"share", e.fractionOf(part.contribution)}});
         return all;
     };
     const auto causeJson = [&](const Cause& cause) -> Json {
         return {{"name", cause.name},
-                {"share", e.shareOf(cause.share)},
-                {"interval", e.shareOf(cause.interval)},
+                {"share", e.fractionOf(cause.contribution)},
+                {"interval", e.fractionOf(cause.interval)},
                 {"where", {cause.worst_x, cause.worst_y}},
                 {"shows", cause.shows},
-                {"alone", e.shareOf(cause.alone)},
-                {"last", e.shareOf(cause.last)},
+                {"alone", e.fractionOf(cause.alone)},
+                {"last", e.fractionOf(cause.last)},
                 {"dominates", cause.dominates},
-                {"flip_share", e.shareOfFlip(cause.flip)},
+                {"flip_share", e.fractionOfFlip(cause.flip)},
                 {"materials", partsJson(cause, cause.materials, "id")},
                 {"lights", partsJson(cause, cause.lights, "place")}};
     };
     const auto pairJson = [&](const CausePair& pair) -> Json {
         return {{"causes", {e.causes[pair.first].name, e.causes[pair.second].name}},
-                {"interaction", e.shareOf(pair.interaction)}};
+                {"interaction", e.fractionOf(pair.interaction)}};
     };
     return {{"schema", 1},
             {"software", softwareName},
@@ -130,7 +131,7 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedImages& of) {
             {"distance", e.distance},
             {"flip", e.flip},
             {"causes", arrayOf(e.causes, causeJson)},
-            {"unexplained", e.shareOf(e.unexplained)},
+            {"unexplained", e.fractionOf(e.unexplained)},
             {"flip_unexplained", e.flip_unexplained},
             {"pairs", arrayOf(e.pairs, pairJson)},
             {"devices", arrayOf(e.devices, deviceJson)},

@@ -174,18 +174,19 @@ LightingComponents::LightingComponents(const Frame& baseline, const Frame& test,
         change.at(t) = differenceOf(baselines.at(t), residual_.at(t));
     // Splits off direct light that changes with the visibility of lights, or where other lights are
     // evaluated.
-    const auto share = [&](std::string name, std::string shows, Channel mode, LightChange how,
-                           const auto& part) {
+    const auto contribution = [&](std::string name, std::string shows, Channel mode, LightChange how,
+                                  const auto& part) {
         add({std::move(name), std::move(shows),
              takeDirectLight(change, terms[1], findChannel(baseline, mode), findChannel(test, mode), part),
              how});
     };
-    share("shadow_visibility", "direct light that changes with the visibility of the sun",
-          Channel::shadow_visibility, LightChange::seen, shadowPart);
-    share("local_visibility", "direct light that changes with the visibility of point and spot lights",
-          Channel::local_visibility, LightChange::seen, shadowPart);
-    share("light_count", "direct light where the number of evaluated lights differs", Channel::light_count,
-          LightChange::whole, [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
+    contribution("shadow_visibility", "direct light that changes with the visibility of the sun",
+                 Channel::shadow_visibility, LightChange::seen, shadowPart);
+    contribution("local_visibility", "direct light that changes with the visibility of point and spot lights",
+                 Channel::local_visibility, LightChange::seen, shadowPart);
+    contribution("light_count", "direct light where the number of evaluated lights differs",
+                 Channel::light_count, LightChange::whole,
+                 [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
     const auto term = [&](std::string name, std::string shows, std::initializer_list<std::size_t> of,
                           std::optional<LightChange> how = {}) {
         TermImages adds;

@@ -26,9 +26,9 @@ double factorial(int n) {
     return std::tgamma(n + 1.0);
 }
 
-// Weight of a subset of `size` other causes in one cause's share: the probability that exactly these
+// Weight of a subset of `size` other causes in one cause's contribution: the probability that exactly these
 // precede it, |S|! (n - |S| - 1)! / n!.
-double shareWeight(int causes, int size) {
+double contributionWeight(int causes, int size) {
     return factorial(size) * factorial(causes - size - 1) / factorial(causes);
 }
 
@@ -38,7 +38,7 @@ Subset countOfSubsets(int causes) {
     return Subset{1} << causes;
 }
 
-// The orders of sampledShares(), each followed by its reverse.
+// The orders of sampledContributions(), each followed by its reverse.
 std::vector<std::vector<int>> sampledOrders(int causes, int orders, std::uint64_t seed) {
     if (causes < 1 || causes > maxCauses || orders < 4 || orders % 2 != 0)
         throw std::invalid_argument(
@@ -56,31 +56,31 @@ std::vector<std::vector<int>> sampledOrders(int causes, int orders, std::uint64_
     return all;
 }
 
-void addExtremes(Shares& shares, int causes, const SubsetValue& value) {
+void addExtremes(Contributions& contributions, int causes, const SubsetValue& value) {
     const Subset all = allOf(causes);
     const double none = value(0), whole = value(all);
-    shares.all = whole - none;
+    contributions.all = whole - none;
     for (int i = 0; i < causes; ++i) {
         const Subset one = Subset{1} << i;
-        shares.alone.push_back(value(one) - none);
-        shares.last.push_back(whole - value(all & ~one));
+        contributions.alone.push_back(value(one) - none);
+        contributions.last.push_back(whole - value(all & ~one));
     }
 }
 
 }  // namespace
 
-Shares exactShares(int causes, const SubsetValue& value) {
+Contributions exactContributions(int causes, const SubsetValue& value) {
     const Subset end = countOfSubsets(causes);
-    Shares shares;
-    shares.share.resize(placeOfCause(causes));
-    shares.interval.resize(placeOfCause(causes));
-    addExtremes(shares, causes, value);
+    Contributions contributions;
+    contributions.contribution.resize(placeOfCause(causes));
+    contributions.interval.resize(placeOfCause(causes));
+    addExtremes(contributions, causes, value);
     for (Subset subset = 0; subset < end; ++subset)
         for (int i = 0; i < causes; ++i) {
             const Subset one = Subset{1} << i;
             if ((subset & one) != 0) continue;
-            shares.share[placeOfCause(i)] +=
-                shareWeight(causes, std::popcount(subset)) * (value(subset | one) - value(subset));
+            contributions.contribution[placeOfCause(i)] +=
+                contributionWeight(causes, std::popcount(subset)) * (value(subset | one) - value(subset));
         }
     for (int j = 1; j < causes; ++j)
         for (int i = 0; i < j; ++i) {
@@ -88,11 +88,11 @@ Shares exactShares(int causes, const SubsetValue& value) {
             double sum = 0;
             for (Subset subset = 0; subset < end; ++subset)
                 if ((subset & (a | b)) == 0)
-                    sum += shareWeight(causes - 1, std::popcount(subset)) *
+                    sum += contributionWeight(causes - 1, std::popcount(subset)) *
                            (value(subset | a | b) - value(subset | a) - value(subset | b) + value(subset));
-            shares.interaction.push_back(sum);
+            contributions.interaction.push_back(sum);
         }
-    return shares;
+    return contributions;
 }
 
 std::vector<SubsetWeights> exactWeights(int causes) {
@@ -101,8 +101,8 @@ std::vector<SubsetWeights> exactWeights(int causes) {
         const int size = std::popcount(subset);
         SubsetWeights& weights = all.emplace_back(SubsetWeights{subset, {}});
         for (int i = 0; i < causes; ++i)
-            weights.weight.push_back((subset >> i & 1) != 0 ? shareWeight(causes, size - 1)
-                                                            : -shareWeight(causes, size));
+            weights.weight.push_back((subset >> i & 1) != 0 ? contributionWeight(causes, size - 1)
+                                                            : -contributionWeight(causes, size));
     }
     return all;
 }
@@ -130,7 +130,7 @@ std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t 
     return all;
 }
 
-Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint64_t seed) {
+Contributions sampledContributions(int causes, const SubsetValue& value, int orders, std::uint64_t seed) {
     const std::vector<std::vector<int>> all = sampledOrders(causes, orders, seed);
     std::vector<double> sum(placeOfCause(causes)), squares(placeOfCause(causes)), one(placeOfCause(causes));
     const int samples = orders / 2;
@@ -149,18 +149,18 @@ Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint
             squares[i] += one[i] * one[i];
         }
     }
-    Shares shares;
+    Contributions contributions;
     // The 97.5 % point of Student's t, accurate to 2 % from 4 degrees of freedom on (expansion about the
     // normal distribution: Abramowitz and Stegun 26.7.5).
     const double freedom = samples - 1, student = 1.96 + 2.37 / freedom + 2.8 / (freedom * freedom);
     for (std::size_t i = 0; i < one.size(); ++i) {
         const double mean = sum[i] / samples;
         const double variance = std::max(0.0, squares[i] / samples - mean * mean) / (samples - 1);
-        shares.share.push_back(mean);
-        shares.interval.push_back(student * std::sqrt(variance));
+        contributions.contribution.push_back(mean);
+        contributions.interval.push_back(student * std::sqrt(variance));
     }
-    addExtremes(shares, causes, value);
-    return shares;
+    addExtremes(contributions, causes, value);
+    return contributions;
 }
 
 }  // namespace diptych

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Attributes a difference to its causes: Shapley 1953, "A Value for n-Person Games". A cause's share is
-// its effect averaged over all orders in which the causes may be swapped, so shares sum to the effect of
-// swapping all. Two causes that each have the whole effect alone share it. A cause that only compensates
-// for another has a negative share.
+// Attributes a difference to its causes: Shapley 1953, "A Value for n-Person Games". A cause's contribution
+// is its effect averaged over all orders in which the causes may be swapped, so contributions sum to the
+// effect of swapping all. Two causes that each have the whole effect alone share it. A cause that only
+// compensates for another has a negative contribution.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ using SubsetValue = std::function<double(Subset)>;
 constexpr int maxExactCauses = 8;  // 256 subsets
 constexpr int maxCauses = 31;
 
-struct Shares {
-    double all = 0;             // value of all causes minus that of none
-    std::vector<double> share;  // of each cause; they sum to `all`, to rounding
+struct Contributions {
+    double all = 0;                    // value of all causes minus that of none
+    std::vector<double> contribution;  // of each cause; they sum to `all`, to rounding
     // Half the 95 % confidence interval of each share; 0: exact.
     std::vector<double> interval;
     std::vector<double> alone, last;  // value of each cause alone; effect of swapping it after all others
@@ -42,12 +42,12 @@ std::vector<SubsetWeights> exactWeights(int causes);
 std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t seed);
 
 // Of every subset. Throws std::invalid_argument beyond maxExactCauses.
-Shares exactShares(int causes, const SubsetValue& value);
+Contributions exactContributions(int causes, const SubsetValue& value);
 
 // From `orders` random orders of the causes (Castro, Gomez and Tejada 2009, "Polynomial calculation of the
 // Shapley value based on sampling"). Each order is also used reversed, which cancels much of the
 // deviation, so 2 orders are one sample of the interval. `orders`: even, at least 4. Throws
 // std::invalid_argument otherwise, and beyond maxCauses.
-Shares sampledShares(int causes, const SubsetValue& value, int orders, std::uint64_t seed);
+Contributions sampledContributions(int causes, const SubsetValue& value, int orders, std::uint64_t seed);
 
 }  // namespace diptych

@@ -134,7 +134,7 @@ TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsImage) {
         const Explanation found = explain(device(), renderer, scene, ours, other);
         std::vector<std::string> named, expected;
         for (const Cause& cause : found.causes)
-            if (std::abs(cause.share) > 0.01 * found.distance) named.push_back(cause.name);
+            if (std::abs(cause.contribution) > 0.01 * found.distance) named.push_back(cause.name);
         for (const auto& [option, value] : had) expected.push_back("--" + option);
         std::ranges::sort(named);
         std::ranges::sort(expected);

@@ -27,7 +27,7 @@ bool isAmong(const std::vector<std::string>& names, const std::string& name) {
 // every pixel.
 bool addsUp(const Explanation& e, const Image& baseline, const Image& test) {
     double all = e.unexplained, flip = e.flip_unexplained;
-    for (const Cause& cause : e.causes) all += cause.share, flip += cause.flip;
+    for (const Cause& cause : e.causes) all += cause.contribution, flip += cause.flip;
     if (std::abs(all - e.distance) > 1e-6 * e.distance) return false;
     if (std::abs(flip - e.flip) > 1e-6 * e.flip) return false;
     for (std::size_t p = 0; p < baseline.pixels(); ++p) {
@@ -47,11 +47,11 @@ bool addsUp(const Explanation& e, const Image& baseline, const Image& test) {
 std::string listed(const Explanation& e) {
     std::string text;
     for (const Cause& cause : e.causes) {
-        text += fmt::format("{} {:.1f} %, ", cause.name, 100 * e.shareOf(cause.share));
+        text += fmt::format("{} {:.1f} %, ", cause.name, 100 * e.fractionOf(cause.contribution));
         for (const CausePart& light : cause.lights)
-            text += fmt::format("({} {:.1f} %) ", light.name, 100 * e.shareOf(light.share));
+            text += fmt::format("({} {:.1f} %) ", light.name, 100 * e.fractionOf(light.contribution));
     }
-    return text + fmt::format("unexplained {:.1f} %", 100 * e.shareOf(e.unexplained));
+    return text + fmt::format("unexplained {:.1f} %", 100 * e.fractionOf(e.unexplained));
 }
 
 struct Tally {
@@ -86,7 +86,7 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
             if (!differsVisibly(a, b)) continue;
             const Explanation e = view->explained(test);
             const bool named = !e.causes.empty() && isAmong(fault.named, e.causes.front().name);
-            tally.count(*view, e, named, named ? e.shareOf(e.causes.front().share) : 0.0);
+            tally.count(*view, e, named, named ? e.fractionOf(e.causes.front().contribution) : 0.0);
             EXPECT_TRUE(addsUp(e, a, b)) << fault.means << " in " << view->name << ": " << listed(e);
         }
         table += tally.row(fault.means);
@@ -109,11 +109,11 @@ TEST(ExplainFaults, TheLightIsNamedToo) {
             std::map<std::string, double> parts;
             for (const Cause& cause : e.causes)
                 for (const CausePart& light : cause.lights)
-                    parts[light.name + std::to_string(light.index)] += light.share;
+                    parts[light.name + std::to_string(light.index)] += light.contribution;
             const auto max =
                 std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
             const bool named = max != parts.end() && max->first.starts_with(firstLight);
-            tally.count(*view, e, named, named ? e.shareOf(max->second) : 0.0);
+            tally.count(*view, e, named, named ? e.fractionOf(max->second) : 0.0);
         }
         fmt::print("{}", tally.row(fault.means + ": which light"));
         EXPECT_GE(tally.cases, minCases) << fault.means;
@@ -164,10 +164,10 @@ constexpr InjectedPair injectedPairs[] = {
     {"emission doubled", "emission is missing from the sum", 1},
 };
 
-// The two causes with the largest absolute shares.
+// The two causes with the largest absolute contributions.
 std::vector<std::string> largestTwo(const Explanation& e) {
     std::vector<std::pair<double, std::string>> shares;
-    for (const Cause& cause : e.causes) shares.emplace_back(std::abs(cause.share), cause.name);
+    for (const Cause& cause : e.causes) shares.emplace_back(std::abs(cause.contribution), cause.name);
     std::ranges::stable_sort(shares, [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::string> names;
     for (std::size_t i = 0; i < std::min<std::size_t>(2, shares.size()); ++i)
@@ -188,8 +188,8 @@ double interactionOf(const Explanation& e, const InjectedFault& first, const Inj
     return 0;
 }
 
-// Both of two faults are named by the two largest shares or as an interacting pair; including redundant
-// and cancelling faults.
+// Both of two faults are named by the two largest contributions or as an interacting pair; including
+// redundant and cancelling faults.
 TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
     ASSERT_GE(std::size(injectedPairs), 20u);
     std::string table = fmt::format("{:<92} {:>3} {:>6}   {}\n", "pair", "in", "named", "interaction");

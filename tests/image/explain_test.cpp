@@ -104,7 +104,7 @@ public:
 
 double sumOfShares(const Explanation& e) {
     return std::accumulate(e.causes.begin(), e.causes.end(), 0.0,
-                           [](double sum, const Cause& cause) { return sum + cause.share; });
+                           [](double sum, const Cause& cause) { return sum + cause.contribution; });
 }
 
 // The maps sum to the difference at each pixel, and each map's mean is its share.
@@ -113,7 +113,7 @@ void expectMapsAddUp(const Explanation& e, const Frame& baseline, const Frame& t
     const auto mean = [](const Image& map) {
         return std::accumulate(map.data.begin(), map.data.end(), 0.0) / static_cast<double>(map.pixels());
     };
-    for (const Cause& cause : e.causes) EXPECT_NEAR(mean(cause.map), cause.share, 1e-6 * e.distance);
+    for (const Cause& cause : e.causes) EXPECT_NEAR(mean(cause.map), cause.contribution, 1e-6 * e.distance);
     EXPECT_NEAR(mean(e.unexplained_map), e.unexplained, 1e-6 * e.distance);
     double all = mean(e.unexplained_map), worst = 0;
     for (const Cause& cause : e.causes) all += mean(cause.map);
@@ -143,7 +143,7 @@ bool hasEffect(const Explanation& e) {
 
 class ExplainOf : public testing::TestWithParam<const char*> {};
 
-// Each fault alone is the only cause, explains everything, and shares add up.
+// Each fault alone is the only cause, explains everything, and contributions add up.
 TEST_P(ExplainOf, NamesEachPlantedFault) {
     Injected injected(GetParam(), {96, 54});
     int effective = 0;
@@ -167,7 +167,7 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
             wrong += std::equal(a.pixel(p), a.pixel(p) + 3, b.pixel(p)) != (e.dominant.pixel(p)[0] < 0);
         EXPECT_EQ(wrong, 0u);
         double ofMaterials = 0;
-        for (const CausePart& one : e.causes[0].materials) ofMaterials += one.share;
+        for (const CausePart& one : e.causes[0].materials) ofMaterials += one.contribution;
         EXPECT_NEAR(ofMaterials, e.distance, 1e-6 * e.distance);
     }
     EXPECT_GE(effective, 4);
@@ -329,7 +329,7 @@ TEST(Explain, NamesTheStageThatTermsDifferIn) {
         ASSERT_GT(e.distance, 0);
         ASSERT_FALSE(e.causes.empty());
         EXPECT_EQ(e.causes.front().name, fault.stage);
-        EXPECT_NEAR(e.causes.front().share, e.distance, 1e-5 * e.distance);
+        EXPECT_NEAR(e.causes.front().contribution, e.distance, 1e-5 * e.distance);
         EXPECT_LE(e.unexplained, 1e-5 * e.distance);
         EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
         expectMapsAddUp(e, right, test);
@@ -350,7 +350,7 @@ TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
     Explanation e = explain(device(), renderer, scene, right, test);
     ASSERT_FALSE(e.causes.empty());
     EXPECT_EQ(names(e), std::vector<std::string>{"shadow_visibility"});
-    EXPECT_NEAR(e.causes.front().share, e.distance, 1e-5 * e.distance);
+    EXPECT_NEAR(e.causes.front().contribution, e.distance, 1e-5 * e.distance);
 
     for (float& value : test.channels.at(Channel::emission).data) value += 0.01f;
     const Image& ids = test.channels.at(Channel::material_id);
@@ -384,7 +384,8 @@ TEST(Explain, AMissingShadowIsOfTheLightThatWouldCastIt) {
         EXPECT_EQ(e.causes.front().name, "shadow_visibility");
         ASSERT_EQ(e.causes.front().lights.size(), 1u);
         EXPECT_EQ(e.causes.front().lights[0].index, 0) << "the first sun alone casts";
-        EXPECT_NEAR(e.causes.front().lights[0].share, e.causes.front().share, 1e-3 * e.causes.front().share);
+        EXPECT_NEAR(e.causes.front().lights[0].contribution, e.causes.front().contribution,
+                    1e-3 * e.causes.front().contribution);
     }
 }
 

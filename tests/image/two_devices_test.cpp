@@ -2,7 +2,7 @@
 // Both paths on a device and on a second one with a fault in its textures, their curve, its lights or its
 // geometry. Each fault is attributed to its cause.
 #include "compare/experiment/two_devices.h"
-#include "compare/explain/device_shares.h"
+#include "compare/explain/device_contributions.h"
 #include "compare/explain/explain.h"
 #include "compare/frames/frame_properties.h"
 #include "compare/verdict/pair_reports.h"
@@ -152,20 +152,20 @@ TEST(TwoDevices, AnExplanationSaysWhereADifferenceComesFrom) {
     const Frame& own = here.frames[1];
     const Explanation explanation =
         explain(device(), here.uploaded.renderer, here.uploaded.scene, own, other);
-    const std::vector<DeviceShare> shares =
-        deviceShares(explanation, own, other,
-                     experiment::acrossDevices(here.uploaded.scene, here.views.at(viewRequest(own.settings)),
-                                               here.precision, own));
+    const std::vector<DeviceContribution> shares = deviceContributions(
+        explanation, own, other,
+        experiment::acrossDevices(here.uploaded.scene, here.views.at(viewRequest(own.settings)),
+                                  here.precision, own));
     EXPECT_EQ(shares.front().name, "textures");
     double all = 0;
     std::string sentence;
-    for (const DeviceShare& share : shares) {
-        all += share.share;
-        sentence += fmt::format("{}: {:.3g}; ", share.name, share.share);
+    for (const DeviceContribution& share : shares) {
+        all += share.contribution;
+        sentence += fmt::format("{}: {:.3g}; ", share.name, share.contribution);
     }
     EXPECT_NEAR(all, explanation.distance, 1e-6 * explanation.distance);
     // Vertex snapping is first attributed the change that a sub-pixel step may cause.
-    EXPECT_GT(shares.front().share, 0.95 * explanation.distance) << sentence;
+    EXPECT_GT(shares.front().contribution, 0.95 * explanation.distance) << sentence;
 }
 
 }  // namespace

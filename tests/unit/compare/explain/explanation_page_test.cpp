@@ -16,7 +16,7 @@
 namespace diptych::tests {
 namespace {
 
-// `count` causes on 3x2 pixels. Cause 0 has the first pixel, the last cause a negative share at the
+// `count` causes on 3x2 pixels. Cause 0 has the first pixel, the last cause a negative contribution at the
 // second.
 Explanation made(std::size_t count) {
     Explanation e;
@@ -26,9 +26,9 @@ Explanation made(std::size_t count) {
         Cause cause;
         cause.name = i == 0 ? "--haze" : "cause " + std::to_string(i);
         cause.shows = "on instead of <off> & so";
-        cause.share = 1.0 / static_cast<double>(count);
+        cause.contribution = 1.0 / static_cast<double>(count);
         cause.map = Image(3, 2, 1);
-        cause.materials = {{-1, "", cause.share}};
+        cause.materials = {{-1, "", cause.contribution}};
         e.causes.push_back(cause);
     }
     e.distance = 1;
@@ -87,7 +87,7 @@ TEST(ExplanationImages, TheMapShowsTheCauseElseTheDarkImage) {
     EXPECT_THROW(dominantImage(e, shown), std::logic_error);
 }
 
-TEST(ExplanationImages, SharesAreOnOneScaleAndNegativeOnesBlue) {
+TEST(ExplanationImages, ContributionsAreOnOneScaleAndNegativeOnesBlue) {
     const Explanation e = made(3);
     EXPECT_EQ(topOfMaps(e), 4);
     std::set<std::string> names;
@@ -97,7 +97,7 @@ TEST(ExplanationImages, SharesAreOnOneScaleAndNegativeOnesBlue) {
     }
     EXPECT_TRUE(names.contains("share-1.haze.png"));
     EXPECT_TRUE(names.contains("share-3.cause-2.png"));
-    const Image8 last = shareImage(e.causes.back().map, 4);
+    const Image8 last = contributionImage(e.causes.back().map, 4);
     EXPECT_GT(last.data[5], last.data[3] + 50);
     EXPECT_GT(last.data[5], last.data[4] + 20);
     EXPECT_EQ(last.data[0], 0);

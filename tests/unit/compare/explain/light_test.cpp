@@ -2,7 +2,7 @@
 // Attribution of a change of direct light to single lights, and of a factor in lit, compared with known
 // changes.
 #include "compare/explain/frame_images.h"
-#include "compare/explain/light_shares.h"
+#include "compare/explain/light_contributions.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ Image times(const Image& image, const auto& factor) {
 }
 
 // The share of the whole change attributed to a light, weighted by the change's magnitude.
-double shareOf(const std::vector<std::vector<float>>& parts, std::size_t light, const Image& change) {
+double fractionOf(const std::vector<std::vector<float>>& parts, std::size_t light, const Image& change) {
     double part = 0, all = 0;
     for (std::size_t p = 0; p < change.pixels(); ++p) {
         const double size = std::abs(double{change.pixel(p)[1]});
@@ -55,7 +55,7 @@ TEST(LightsOfChange, AFactorIsFoundByWhereTheLightIs) {
     for (std::size_t light = 0; light < lights.size(); ++light) {
         const Image change = times(lights[light], [](int) { return -0.3; });
         const auto parts = lightsOfChange(change, lights, LightChange::factor);
-        EXPECT_GT(shareOf(parts, light, change), 0.999) << light;
+        EXPECT_GT(fractionOf(parts, light, change), 0.999) << light;
     }
 }
 
@@ -65,14 +65,14 @@ TEST(LightsOfChange, ALightThatIsDroppedIsTheOneThatIsMissing) {
         // Change in an area that is not a multiple of the blocks.
         const Image change = times(lights[light], [](int p) { return p % width < 11 ? 1.0 : 0.0; });
         const auto parts = lightsOfChange(change, lights, LightChange::whole);
-        EXPECT_GT(shareOf(parts, light, change), 0.99) << light;
+        EXPECT_GT(fractionOf(parts, light, change), 0.99) << light;
     }
 }
 
 TEST(LightsOfChange, AShadowIsOfTheLightWhoseColourItHas) {
     const std::vector<Image> lights = threeLights();
     const Image change = times(lights[2], [](int p) { return 0.5 + 0.5 * std::sin(p); });
-    EXPECT_GT(shareOf(lightsOfChange(change, lights, LightChange::seen), 2, change), 0.999);
+    EXPECT_GT(fractionOf(lightsOfChange(change, lights, LightChange::seen), 2, change), 0.999);
 }
 
 // Lights of one colour with partial visibility everywhere: either could have caused the change.
@@ -81,8 +81,8 @@ TEST(LightsOfChange, LightsThatCannotBeToldApartShare) {
                                     times(threeLights()[0], [](int) { return 2; })};
     const Image change = times(lights[0], [](int p) { return 0.5 + 0.5 * std::sin(p); });
     const auto parts = lightsOfChange(change, lights, LightChange::seen);
-    EXPECT_NEAR(shareOf(parts, 0, change), 1.0 / 3, 1e-5);
-    EXPECT_NEAR(shareOf(parts, 1, change), 2.0 / 3, 1e-5);
+    EXPECT_NEAR(fractionOf(parts, 0, change), 1.0 / 3, 1e-5);
+    EXPECT_NEAR(fractionOf(parts, 1, change), 2.0 / 3, 1e-5);
 }
 
 // Between two lights that both change, each gets a share.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/light_shares.h"
+#include "compare/explain/light_contributions.h"
 
 #include "compare/explain/frame_images.h"
 #include "shared/scene/lights/casters.h"
@@ -91,7 +91,7 @@ public:
             }
     }
 
-    void divide(std::vector<std::vector<float>>& shares) {
+    void divide(std::vector<std::vector<float>>& contributions) {
         const std::vector<glm::dvec3> change = left_;
         const double all = squares();
         std::vector<std::vector<double>> sizes = taken(all);
@@ -104,7 +104,7 @@ public:
             double sum = 0;
             for (const std::vector<double>& light : sizes) sum += light[i];
             for (std::size_t light = 0; sum > 0 && light < sizes.size(); ++light)
-                shares[light][pixels_[i]] = static_cast<float>(sizes[light][i] / sum);
+                contributions[light][pixels_[i]] = static_cast<float>(sizes[light][i] / sum);
         }
     }
 
@@ -237,27 +237,27 @@ std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<
         // Last, so that the next cause can use its frame.
         parts = partsOfDifference(alone(test), ablated);
     }
-    std::vector<CausePart> shares;
+    std::vector<CausePart> contributions;
     for (std::size_t i = 0; i < places.size(); ++i) {
         double sum = 0;
         for (std::size_t p = 0; p < map.size(); ++p) sum += map[p] * double{parts[i][p]};
         if (sum != 0)
-            shares.push_back({static_cast<int>(places[i]), titleOf(lights[places[i]]),
-                              sum / static_cast<double>(map.size())});
+            contributions.push_back({static_cast<int>(places[i]), titleOf(lights[places[i]]),
+                                     sum / static_cast<double>(map.size())});
     }
-    return shares;
+    return contributions;
 }
 
 std::vector<std::vector<float>> lightsOfChange(const Image& change, std::span<const Image> terms,
                                                LightChange how) {
-    std::vector<std::vector<float>> shares(terms.size(), std::vector<float>(change.pixels()));
+    std::vector<std::vector<float>> contributions(terms.size(), std::vector<float>(change.pixels()));
     const int columns = (change.width + blockSide - 1) / blockSide,
               rows = (change.height + blockSide - 1) / blockSide;
     tbb::parallel_for(0, columns * rows, [&](int block) {
         LightBlock(change, terms, how, block % columns * blockSide, block / columns * blockSide)
-            .divide(shares);
+            .divide(contributions);
     });
-    return shares;
+    return contributions;
 }
 
 }  // namespace diptych

@@ -12,11 +12,11 @@
 namespace diptych {
 
 // The channels needed beside explainedChannels().
-std::vector<Channel> deviceShareChannels();
+std::vector<Channel> deviceContributionChannels();
 
 // Sums the maps of an explanation's causes; the results sum to its distance. Descending. `baseline`,
 // `test`: the explained Frames.
-std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Frame& baseline,
-                                      const Frame& test, const AcrossDevices& across);
+std::vector<DeviceContribution> deviceContributions(const Explanation& explanation, const Frame& baseline,
+                                                    const Frame& test, const AcrossDevices& across);
 
 }  // namespace diptych

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/explain/device_shares.h"
+#include "compare/explain/device_contributions.h"
 
 #include "compare/explain/lighting_components.h"
 #include "compare/frames/frame_properties.h"
@@ -55,15 +55,15 @@ std::string measured(const AcrossDevices& across) {
 
 }  // namespace
 
-std::vector<Channel> deviceShareChannels() {
+std::vector<Channel> deviceContributionChannels() {
     std::vector<Channel> modes = surfacePixelChannels();
     std::ranges::copy(termChannels(), std::back_inserter(modes));
     modes.insert(modes.end(), {Channel::shadow_visibility, Channel::local_visibility, Channel::light_count});
     return modes;
 }
 
-std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Frame& baseline,
-                                      const Frame& test, const AcrossDevices& across) {
+std::vector<DeviceContribution> deviceContributions(const Explanation& explanation, const Frame& baseline,
+                                                    const Frame& test, const AcrossDevices& across) {
     const Coverage covered = coverage(baseline, test);
     const Requirements needs;
     FramePair pair{baseline, test, needs, covered, true, nullptr, nullptr, &across};
@@ -82,7 +82,7 @@ std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Fram
     };
     for (const Cause& cause : explanation.causes) add(cause.name, cause.map);
     add("", explanation.unexplained_map);
-    std::vector<DeviceShare> shares{
+    std::vector<DeviceContribution> contributions{
         {"edges",
          fmt::format("another triangle at {}, another shadow beside its boundary at {}",
                      counted(surfaces.triangles.count + surfaces.tied, "pixel"),
@@ -96,8 +96,8 @@ std::vector<DeviceShare> deviceShares(const Explanation& explanation, const Fram
         {"shadow maps", "visibility of shadow-casting lights", sums[shadows]},
         {"light lists", "different lights are evaluated", sums[lists]},
         {"rounding", "shading of the same surfaces, blending and everything else", sums[rounding]}};
-    std::ranges::stable_sort(shares, std::ranges::greater(), &DeviceShare::share);
-    return shares;
+    std::ranges::stable_sort(contributions, std::ranges::greater(), &DeviceContribution::contribution);
+    return contributions;
 }
 
 }  // namespace diptych

@@ -12,9 +12,9 @@
 
 namespace diptych {
 
-// Each light's part of a cause's share, unordered; empty if the cause is not direct light or shadows. Renders
-// the lights alone on the test's surfaces, and counts them in Explanation::lights_drawn and lights_left_out.
-// `map`: as Cause::map, one value per pixel.
+// Each light's part of a cause's contribution, unordered; empty if the cause is not direct light or shadows.
+// Renders the lights alone on the test's surfaces, and counts them in Explanation::lights_drawn and
+// lights_left_out. `map`: as Cause::map, one value per pixel.
 std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<double>& map,
                                   const Ablation& ablation, Explanation& found);
 
