@@ -177,7 +177,7 @@ RelationTolerance RelationMeasurer::toleranceOf(const Relation& relation, const 
     tolerance.filter_step = std::ldexp(2.0, -static_cast<int>(device_.limits().subTexelPrecisionBits)) +
                             std::ldexp(1.0, -static_cast<int>(device_.limits().mipmapPrecisionBits));
     tolerance.facet = 2 * roundingsOfAFacet * roundoff * pixelsPerRadian(subject_);
-    tolerance.filtered_share =
+    tolerance.filtered_fraction =
         std::min(maxFiltered, chancesOfATexel * largestSide(related.base.scene) * roundoff);
     tolerance.packed = packedBounds(settings);
     return tolerance;

@@ -36,7 +36,7 @@ struct RelationTolerance {
     // Whether each material of the original scene has a texture; and the fraction of their pixels that may
     // be filtered with another step.
     std::vector<bool> textured;
-    double filtered_share = 0;
+    double filtered_fraction = 0;
     // rounding: fraction of each pixel hidden by blended surfaces, W x H x 1; nullptr: nothing blends. No
     // channel contains their edges.
     const Image* blended = nullptr;

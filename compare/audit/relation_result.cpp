@@ -54,7 +54,7 @@ double apart(const float* a, const float* b, int components) {
 }
 
 // Fraction of the tolerance used; a non-finite error exceeds any tolerance, even an infinite one.
-double shareOf(double error, double allowed) {
+double fractionOf(double error, double allowed) {
     if (error == 0) return 0;
     return allowed > 0 && error < unbounded ? error / allowed : unbounded;
 }
@@ -263,8 +263,8 @@ private:
             });
             result.filtered += filtered_[i];
         }
-        result.max_filtered = std::max(
-            fewPixels, static_cast<std::uint64_t>(static_cast<double>(textured) * tolerance_.filtered_share));
+        result.max_filtered = std::max(fewPixels, static_cast<std::uint64_t>(static_cast<double>(textured) *
+                                                                             tolerance_.filtered_fraction));
     }
 
     double errorAt(Channel mode, std::size_t pixel, double& allowed) const {
@@ -289,8 +289,8 @@ private:
                 tolerance_.relative * std::max(std::abs(double{p[c]}), std::abs(double{q[c]})) +
                 std::numeric_limits<float>::min();
             const double is = apart(p + c, q + c, 1);
-            if (c > 0 && shareOf(is, may) <= worst) continue;
-            worst = shareOf(is, may);
+            if (c > 0 && fractionOf(is, may) <= worst) continue;
+            worst = fractionOf(is, may);
             error = is;
             allowed = may;
         }
@@ -306,7 +306,7 @@ private:
             double allowed = 0;
             const double error = errorAt(mode, i, allowed);
             if (error == 0) continue;
-            const double part = shareOf(error, allowed);
+            const double part = fractionOf(error, allowed);
             used.data[i] = static_cast<float>(part);
             result.beyond += part > 1;
             if (part <= result.used && result.x >= 0) continue;

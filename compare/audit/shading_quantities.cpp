@@ -57,11 +57,11 @@ void setTexels(std::vector<Value>& texels, Value value) {
         if (i % 4 != 3) texels[i] = value;
 }
 
-void pushTexel(Case& pushed, const Subject&, double share) {
+void pushTexel(Case& pushed, const Subject&, double fraction) {
     for (TextureImage& image : pushed.scene.images) {
-        setTexels(image.rgba, static_cast<std::uint8_t>(std::lround(share * 0xFF)));
-        setTexels(image.rgba16, static_cast<std::uint16_t>(std::lround(share * 0xFFFF)));
-        setTexels(image.rgba32, static_cast<float>(share) * image.largest);
+        setTexels(image.rgba, static_cast<std::uint8_t>(std::lround(fraction * 0xFF)));
+        setTexels(image.rgba16, static_cast<std::uint16_t>(std::lround(fraction * 0xFFFF)));
+        setTexels(image.rgba32, static_cast<float>(fraction) * image.largest);
     }
 }
 

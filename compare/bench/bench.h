@@ -21,7 +21,7 @@ namespace diptych::bench {
 // begin with "assign", passes that light surfaces with "shade".
 double passMs(const BenchRow& row, std::string_view prefix = {});
 // Time of building light lists relative to all passes, 0 to 1.
-double assignShare(const BenchRow& row);
+double assignFraction(const BenchRow& row);
 
 struct Bench {
     std::string scene;  // as on the command line

@@ -257,10 +257,10 @@ BenchCases layerCases(const Settings& given, const BenchOptions& options) {
     BenchCases cases;
     for (const Cover& cover : tableCovers())
         for (const std::uint32_t lights : counts) {
-            const std::string share =
+            const std::string fraction =
                 cover.kind.empty() ? "" : fmt::format("{}={}&", cover.kind, cover.percent);
             BenchGroup group{
-                lights, fmt::format("builtin:covered?{}lights={}", share, lights), {}, {}, cover};
+                lights, fmt::format("builtin:covered?{}lights={}", fraction, lights), {}, {}, cover};
             for (const Path path : pathsOf(options)) {
                 Settings settings = tableSettings(given, options, path);
                 for (const Layers layers : hasGBuffer(path) ? all<Layers>() : std::vector{given.layers}) {

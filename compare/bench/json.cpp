@@ -26,7 +26,7 @@ Json rowJson(const BenchRow& row) {
                  {"size", jsonOf(row.settings.size)},
                  {"light_count", orNull(row.requested_lights)},
                  {"assign_ms", passMs(row, "assign")},
-                 {"assign_share", assignShare(row)}});
+                 {"assign_share", assignFraction(row)}});
     return json;
 }
 

@@ -125,7 +125,7 @@ double passMs(const BenchRow& row, std::string_view prefix) {
     return ms;
 }
 
-double assignShare(const BenchRow& row) {
+double assignFraction(const BenchRow& row) {
     const double all = passMs(row);
     return all > 0 ? passMs(row, "assign") / all : 0;
 }

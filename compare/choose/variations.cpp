@@ -107,7 +107,7 @@ std::size_t materialsIn(const Scene& scene) {
 }
 
 // Fractions of the images: blended pixels, and pixels with any surface.
-std::pair<double, double> blendedShare(const experiment::ReferenceFrames& references, double surface) {
+std::pair<double, double> blendedFraction(const experiment::ReferenceFrames& references, double surface) {
     double blended = 0, all = 0;
     for (const Frame& frame : references.frames) {
         all += static_cast<double>(frame.settings.size.width) * frame.settings.size.height;
@@ -201,19 +201,19 @@ private:
     }
 
     Property blended() const {
-        const auto [share, surface] = blendedShare(of_.references, here_.surface);
+        const auto [fraction, surface] = blendedFraction(of_.references, here_.surface);
         Property property{.name = "transparency",
                           .unit = "% of the pixels",
                           .how = "all materials opaque, and all blended",
-                          .value = 100 * share,
+                          .value = 100 * fraction,
                           .min = 0,
                           .max = 100};
         const auto vary = [&](bool all, double value) {
             property.others.push_back(withScene([all](const Scene& scene) { return withBlends(scene, all); },
                                                 [value](const VariedScene&) { return value; }));
         };
-        if (share > 0) vary(false, 0);
-        if (surface > share) vary(true, 100 * surface);
+        if (fraction > 0) vary(false, 0);
+        if (surface > fraction) vary(true, 100 * surface);
         return property;
     }
 

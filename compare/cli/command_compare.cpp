@@ -125,11 +125,11 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
                                             other != nullptr, options.twice);
     render.keep = kept.opener();
     const std::string& name = options.scenes.front();
-    const Stage drawn_stage = Stage(progress, name).part(0, experiment::sharesOf(render).drawn);
-    const double loading = loadingShare(name, render, settings.size());
+    const Stage drawn_stage = Stage(progress, name).part(0, experiment::fractionsOf(render).drawn);
+    const double loading = loadingFraction(name, render, settings.size());
     const Scene scene = loadShown(name, options.settings, drawn_stage.part(0, loading));
     if (!options.allow_empty) requireTriangles(scene, name);
-    const double ours = loading + compared.ourShare() * (1 - loading);
+    const double ours = loading + compared.ourFraction() * (1 - loading);
     render.progress = drawn_stage.part(loading, ours);
     experiment::Devices devices(device, other.get(), false);
     experiment::DrawnScene drawn =
@@ -141,7 +141,7 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
                                  renewing(options, baseline ? &*baseline : nullptr, drawn.views.front()),
                                  reportDevice(device));
     const Stage stage(progress, folder.string());
-    const auto [drawing, comparing] = experiment::sharesOf(render);
+    const auto [drawing, comparing] = experiment::fractionsOf(render);
     compare.progress = stage.part(drawing, comparing);
     Report report = experiment::reportOf(compared, compare, std::move(drawn), std::move(baseline), devices,
                                          againFolder(folder));

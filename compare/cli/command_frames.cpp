@@ -186,7 +186,7 @@ int runFrames(const RenderLine& options) {
     render.channels = channelsFor(writer.output().kind, options, render.channels);
     const Stage stage(progress, name);
     const auto frames = static_cast<std::size_t>(options.frames);
-    const double loading = loadingShare(name, render, frames);
+    const double loading = loadingFraction(name, render, frames);
     say(options, name);
     const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
     FrameSource source(scene, device ? &*device : nullptr);
@@ -194,12 +194,12 @@ int runFrames(const RenderLine& options) {
         settings.time = timeOfFrame(options, i);
         const double each = (1 - loading) / options.frames, begun = loading + each * i;
         const Stage drawing = stage.part(begun, begun + each);
-        render.progress = drawing.part(0, drawnShare(render));
+        render.progress = drawing.part(0, drawnFraction(render));
         KeptReferences kept(writer.output().path, writer.output().kind == OutputKind::folder);
         render.keep = kept.opener();
         const Frame frame = source.draw(settings, render);
         if (device) checkValidation(*device);
-        drawing.at(drawnShare(render), "write");
+        drawing.at(drawnFraction(render), "write");
         progress.wipe();
         writer.write(frame, i);
         kept.remove();

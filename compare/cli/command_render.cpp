@@ -52,14 +52,14 @@ std::vector<Frame> drawAll(const RenderLine& options, const std::vector<Settings
     render.keep = kept.opener();
     render.channels = channelsFor(output.kind, options, render.channels);
     std::vector<Frame> frames;
-    const double drawn = drawnShare(render);
+    const double drawn = drawnFraction(render);
     const auto scenes = static_cast<double>(options.scenes.size());
     for (std::size_t i = 0; i < options.scenes.size(); ++i) {
         const std::string& name = options.scenes[i];
         say(options, name);
         const auto done = static_cast<double>(i);
         const Stage stage = Stage(progress, name).part(drawn * done / scenes, drawn * (done + 1) / scenes);
-        const double loading = loadingShare(name, render, settings.size());
+        const double loading = loadingFraction(name, render, settings.size());
         const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
         render.progress = stage.part(loading, 1);
         std::ranges::move(
@@ -138,7 +138,7 @@ int runRender(const RenderLine& options) {
     }
     const std::vector<std::filesystem::path> places =
         writeAll(options, image, frames, result, made,
-                 Stage(progress, output.path.string()).part(drawnShare(renderOptions(options)), 1));
+                 Stage(progress, output.path.string()).part(drawnFraction(renderOptions(options)), 1));
     kept.remove();
     progress.wipe();
     noteLeftByOthers(options, kept);
@@ -234,7 +234,7 @@ ReportDevice madeBy(const std::optional<Device>& device) {
                   : ReportDevice{"double precision, no Vulkan device", softwareName, "cpu"};
 }
 
-double drawnShare(const RenderOptions& render) {
+double drawnFraction(const RenderOptions& render) {
     return framesIn(render) / (framesIn(render) + 5);
 }
 

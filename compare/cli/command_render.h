@@ -45,7 +45,7 @@ nlohmann::ordered_json resultOf(const ReportDevice& made);
 ReportDevice madeBy(const std::optional<Device>& device);
 // Fraction of the command's time after which rendering ends. Writing takes as long as five rendered frames
 // (lavapipe, gallery, 1280x720, all channels).
-double drawnShare(const RenderOptions& render);
+double drawnFraction(const RenderOptions& render);
 // "x.lit.png, x.normals.png"
 std::string imageNames(const std::vector<std::filesystem::path>& files);
 

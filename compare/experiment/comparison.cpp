@@ -120,7 +120,7 @@ std::vector<const Device*> Devices::all() const {
     return all;
 }
 
-Shares sharesOf(const RenderOptions& render) {
+Fractions fractionsOf(const RenderOptions& render) {
     const double frames = framesIn(render);
     return {frames / (frames + 4), (frames + 1) / (frames + 4)};
 }

@@ -31,15 +31,15 @@ struct Compared {
     bool withReference() const { return isReference(baseline) && !from_file; }
     std::vector<Path> paths() const;
     // Fraction of a scene's rendering time that is not spent in external renderers, 0 to 1.
-    double ourShare() const { return renderers.empty() ? 1 : 0.5; }
+    double ourFraction() const { return renderers.empty() ? 1 : 0.5; }
 };
 
 // Fractions of a scene's time after which rendering and comparing end. Per Frame, comparing takes one
 // rendered frame, writing three (lavapipe, gallery, 1280x720: 4.8 s, 0.3 s and 0.9 s).
-struct Shares {
+struct Fractions {
     double drawn, compared;
 };
-Shares sharesOf(const RenderOptions& render);
+Fractions fractionsOf(const RenderOptions& render);
 
 // The rendered Frames of a scene.
 struct DrawnScene {

@@ -24,9 +24,9 @@ double knownOrInfinite(double value) {
     return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
 }
 
-double nearestRank(std::vector<double> values, double share) {
+double nearestRank(std::vector<double> values, double fraction) {
     if (values.empty()) return 0;
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size())));
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(fraction * static_cast<double>(values.size())));
     const auto nth = values.begin() + std::max<std::ptrdiff_t>(rank, 1) - 1;
     std::nth_element(values.begin(), nth, values.end());
     return *nth;

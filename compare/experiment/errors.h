@@ -18,7 +18,7 @@ namespace diptych::experiment {
 double knownOrInfinite(double value);
 
 // The ceil(share N)-th smallest value; 0 without values.
-double nearestRank(std::vector<double> values, double share);
+double nearestRank(std::vector<double> values, double fraction);
 
 // Errors of a Frame of the reference's size. `pixels`: relative error of each covered pixel.
 struct FrameErrors {

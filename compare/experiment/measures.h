@@ -123,6 +123,6 @@ inline constexpr std::array shadowMetrics = groupOf<Measure::shadow_error, Measu
 inline constexpr std::array sampleMetrics = groupOf<Measure::shaded, Measure::elsewhere>();
 using Errors = std::array<double, errorMetrics.size()>;
 using ShadowErrors = std::array<double, shadowMetrics.size()>;
-using SampleShares = std::array<double, sampleMetrics.size()>;
+using SampleFractions = std::array<double, sampleMetrics.size()>;
 
 }  // namespace diptych::experiment

@@ -132,12 +132,12 @@ void joinCameras(Row& row) {
     row.passes.clear();
     for (const Row& camera : row.cameras)
         for (const PassTime& pass : camera.passes) {
-            const double share = pass.ms / static_cast<double>(row.cameras.size());
+            const double fraction = pass.ms / static_cast<double>(row.cameras.size());
             const auto known = std::ranges::find(row.passes, pass.name, &PassTime::name);
             if (known != row.passes.end())
-                known->ms += share;
+                known->ms += fraction;
             else
-                row.passes.push_back({pass.name, share});
+                row.passes.push_back({pass.name, fraction});
         }
 }
 

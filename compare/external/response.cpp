@@ -75,8 +75,8 @@ double Response::straight(double shown) const {
     auto next = std::ranges::lower_bound(ramp_, shown, {}, &RampStep::shown);
     next = std::clamp(next, ramp_.begin() + 1, ramp_.end() - 1);
     const RampStep &a = *(next - 1), &b = *next;
-    const double share = std::log(shown / a.shown) / std::log(b.shown / a.shown);
-    return a.expected * std::pow(b.expected / a.expected, share);
+    const double fraction = std::log(shown / a.shown) / std::log(b.shown / a.shown);
+    return a.expected * std::pow(b.expected / a.expected, fraction);
 }
 
 void Response::measurePrimaries(const std::array<glm::dvec3, 3>& columns, double expected) {

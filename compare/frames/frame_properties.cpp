@@ -65,7 +65,7 @@ Frame describedFrame(const Scene& scene, const SceneView& view, const Settings& 
     if (view.sun && settings.ibl_intensity > 0)
         frame.notes.push_back("environment: " +
                               (view.sun->found
-                                   ? "its sun is a light " + describe(view.lights.back(), view.sun->share)
+                                   ? "its sun is a light " + describe(view.lights.back(), view.sun->fraction)
                                    : "--env-sun on: " + view.sun->why));
     frame.counters.lights = view.lights.size();
     return frame;

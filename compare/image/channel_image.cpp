@@ -245,8 +245,8 @@ constexpr int beyondShades = 9;
 
 // From beyondColor just above the top to white at farBeyond times the top, in equal logarithmic steps.
 Rgb8 beyondShade(double times) {
-    const double share = std::min(std::log(times) / std::log(farBeyond), 1.0);
-    const double t = std::min(std::floor(share * beyondShades), beyondShades - 1.0) / (beyondShades - 1);
+    const double fraction = std::min(std::log(times) / std::log(farBeyond), 1.0);
+    const double t = std::min(std::floor(fraction * beyondShades), beyondShades - 1.0) / (beyondShades - 1);
     Rgb8 color{};
     for (std::size_t c = 0; c < color.size(); ++c)
         color[c] =

@@ -72,11 +72,12 @@ public:
           count_(std::accumulate(first.begin(), first.end(), zeros)) {}
 
     // The ceil(share N)-th smallest error for each share.
-    std::array<double, 2> nearest(const std::array<double, 2>& shares) const {
+    std::array<double, 2> nearest(const std::array<double, 2>& fractions) const {
         std::array<double, 2> values{};
         std::vector<Sought> sought;
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            const auto rank = static_cast<std::uint64_t>(std::ceil(shares[i] * static_cast<double>(count_)));
+        for (std::size_t i = 0; i < fractions.size(); ++i) {
+            const auto rank =
+                static_cast<std::uint64_t>(std::ceil(fractions[i] * static_cast<double>(count_)));
             if (rank > zeros_) sought.push_back({&values[i], rank - zeros_, first_});
         }
         for (int shift = 64 - digit; !sought.empty(); shift -= digit) {
@@ -194,7 +195,7 @@ bool isBlack(const ImageRows& image, const Coverage& coverage) {
     return true;
 }
 
-double litShare(const ImageRows& image, const Coverage& coverage) {
+double litFraction(const ImageRows& image, const Coverage& coverage) {
     std::vector<float> buffer;
     std::size_t all = 0, lit = 0;
     for (int y = 0; y < image.height; ++y) {

@@ -29,7 +29,7 @@ Coverage everyPixel(std::size_t pixels);
 // Whether all components of all covered pixels are 0.
 bool isBlack(const ImageRows& image, const Coverage& coverage);
 // Fraction of covered pixels that are not 0; 0 if none is covered.
-double litShare(const ImageRows& image, const Coverage& coverage);
+double litFraction(const ImageRows& image, const Coverage& coverage);
 
 // Statistics over the covered pixels, in the channel's unit (angular, axial: degrees); 0 if none is
 // covered. All may be infinite: a NaN or infinity has infinite error against anything else, which no

@@ -201,8 +201,8 @@ double pixelsPerDegree(double distance, double width, int pixels) {
 }
 
 ExposureRange exposureRange(const ImageRows& reference, ToneMapper mapper) {
-    constexpr std::array shares{1.0, 0.5};
-    const std::vector<float> ranks = luminances(reference, false).nearestRanks(shares);
+    constexpr std::array fractions{1.0, 0.5};
+    const std::vector<float> ranks = luminances(reference, false).nearestRanks(fractions);
     const float max = ranks[0];
     if (!(max > 0)) return {};
     const float median = ranks[1] > 0 ? ranks[1] : luminances(reference, true).nearestRank(0.5);

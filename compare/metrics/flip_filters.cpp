@@ -64,8 +64,8 @@ FlipFilters::FlipFilters(double ppd) {
     cz = {over(w1, bothSides(w1)), over(w2, bothSides(w2))};
     const double s1 = bothSides(w1), s2 = bothSides(w2);
     const double volume1 = a1 * std::sqrt(pi / b1) * s1 * s1, volume2 = a2 * std::sqrt(pi / b2) * s2 * s2;
-    cz_share = {static_cast<float>(volume1 / (volume1 + volume2)),
-                static_cast<float>(volume2 / (volume1 + volume2))};
+    cz_fraction = {static_cast<float>(volume1 / (volume1 + volume2)),
+                   static_cast<float>(volume2 / (volume1 + volume2))};
 
     // Half of the width of 0.082 degrees at which an edge is detected.
     const double deviation = 0.5 * 0.082 * ppd;

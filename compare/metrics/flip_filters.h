@@ -16,8 +16,8 @@ struct FlipFilters {
 
     // Contrast sensitivity of the eye for y, cx and cz (2020 paper, section 4.1.1); each adds up to 1.
     HalfKernel y, cx;
-    std::array<HalfKernel, 2> cz;     // two separable terms, each for both directions
-    std::array<float, 2> cz_share{};  // fractions of the two terms; add up to 1
+    std::array<HalfKernel, 2> cz;        // two separable terms, each for both directions
+    std::array<float, 2> cz_fraction{};  // fractions of the two terms; add up to 1
     // A Gaussian and its first and second derivatives (section 4.2). The derivatives' positive weights add
     // up to 1, the negative ones to -1.
     HalfKernel smooth, edge, point;

@@ -40,8 +40,8 @@ constexpr Matrix xyzFromRgb = [] {
     const Matrix solve = inverse(primaries);
     Matrix m{};
     for (unsigned c = 0; c < 3; ++c) {
-        const double share = solve[c][0] * white[0] + solve[c][1] * white[1] + solve[c][2] * white[2];
-        for (unsigned i = 0; i < 3; ++i) m[i][c] = primaries[i][c] * share / white[i];
+        const double fraction = solve[c][0] * white[0] + solve[c][1] * white[1] + solve[c][2] * white[2];
+        for (unsigned i = 0; i < 3; ++i) m[i][c] = primaries[i][c] * fraction / white[i];
     }
     return m;
 }();

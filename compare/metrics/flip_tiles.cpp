@@ -227,7 +227,7 @@ void TileRows::filter(FilteredImage& filtered_image, int y) {
     down(convolveEven, f.cz[1], filtered_image, y, 2);
     along(convolveEven, f.cz[1], second_.data());
     for (int i = 0; i < tile_.width(); ++i)
-        out.cz[i] = f.cz_share[0] * out.cz[i] + f.cz_share[1] * second_[size(i)];
+        out.cz[i] = f.cz_fraction[0] * out.cz[i] + f.cz_fraction[1] * second_[size(i)];
 
     down(convolveEven, f.smooth, filtered_image, y, 0);
     along(convolveOdd, f.edge, out.edge_x);

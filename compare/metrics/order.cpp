@@ -90,13 +90,13 @@ std::vector<Order::Bin> Order::within(const std::vector<std::size_t>& wanted) co
     return std::move(found[0]);
 }
 
-std::vector<float> Order::nearestRanks(std::span<const double> shares) const {
-    std::vector<float> values(shares.size());
+std::vector<float> Order::nearestRanks(std::span<const double> fractions) const {
+    std::vector<float> values(fractions.size());
     if (size_ == 0) return values;
     std::vector<std::size_t> found, in;  // distinct bins; index in `found` for each share
     std::vector<std::uint64_t> left;     // ranks within the bins
-    for (const double share : shares) {
-        auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(size_)));
+    for (const double fraction : fractions) {
+        auto rank = static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(size_)));
         rank = std::clamp<std::uint64_t>(rank, 1, size_);
         std::size_t bin = 0;
         for (; rank > count_[bin]; ++bin) rank -= count_[bin];
@@ -106,7 +106,7 @@ std::vector<float> Order::nearestRanks(std::span<const double> shares) const {
         left.push_back(rank);
     }
     const std::vector<Bin> low = within(found);
-    for (std::size_t k = 0; k < shares.size(); ++k) {
+    for (std::size_t k = 0; k < fractions.size(); ++k) {
         std::size_t i = 0;
         for (; left[k] > low[in[k]][i]; ++i) left[k] -= low[in[k]][i];
         values[k] = valueOf(found[in[k]], i);
@@ -114,9 +114,9 @@ std::vector<float> Order::nearestRanks(std::span<const double> shares) const {
     return values;
 }
 
-float Order::weightedQuantile(double share) const {
+float Order::weightedQuantile(double fraction) const {
     if (!(sum_ > 0)) return 0;
-    double left = share * sum_;
+    double left = fraction * sum_;
     std::size_t bin = 0;
     for (; bin < bins && !(count_[bin] && left <= weight_[bin]); ++bin) left -= weight_[bin];
     if (bin == bins) return nearestRank(1);  // rounding of the sums

@@ -29,11 +29,11 @@ public:
 
     // The ceil(share N)-th smallest value (nearest rank), share in [0, 1]; share 0 is the smallest. 0
     // without values.
-    float nearestRank(double share) const { return nearestRanks({&share, 1}).front(); }
-    std::vector<float> nearestRanks(std::span<const double> shares) const;  // reads the values once
+    float nearestRank(double fraction) const { return nearestRanks({&fraction, 1}).front(); }
+    std::vector<float> nearestRanks(std::span<const double> fractions) const;  // reads the values once
     // A quantile weighted by value: the least value such that all values up to it add up to at least
     // `share` of the sum. 0 if the sum is 0; the sum must be finite.
-    float weightedQuantile(double share) const;
+    float weightedQuantile(double fraction) const;
 
 private:
     using Bin = std::vector<std::uint32_t>;

@@ -178,9 +178,9 @@ void checkPair(const ImageRows& reference, const ImageRows& test, const Coverage
 }
 
 void setPixels(const StandardPass& pass, StandardMetrics& m) {
-    constexpr std::array shares{1.0, 0.99, 0.999};
+    constexpr std::array fractions{1.0, 0.99, 0.999};
     const Order relative = pass.relative();
-    const std::vector<float> ranks = relative.nearestRanks(shares);
+    const std::vector<float> ranks = relative.nearestRanks(fractions);
     m.relative_max = ranks[0];
     m.relative_mean = relative.mean();
     m.relative_p99 = ranks[1];

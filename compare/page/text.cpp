@@ -42,8 +42,8 @@ std::string number(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-std::string percent(double share) {
-    return number(100 * share) + " %";
+std::string percent(double fraction) {
+    return number(100 * fraction) + " %";
 }
 
 std::string bytes(std::uint64_t count) {

@@ -20,7 +20,7 @@ std::string markup(std::string_view text);
 std::string isolated(std::string_view text);
 
 std::string number(double value);        // three digits: "0.0123", "1.2e-07", "inf"
-std::string percent(double share);       // "2.31 %"
+std::string percent(double fraction);    // "2.31 %"
 std::string bytes(std::uint64_t count);  // "1.25 MiB"
 
 const char* unitOf(const DebugMode& mode);  // unit of the channel's errors: a degree sign or empty

@@ -60,9 +60,9 @@ Axis::Axis(const PlotAxis& axis, const std::vector<double>& points, const std::v
 double Axis::at(double value) const {
     if (logarithmic_ && value <= 0) return (begin_ + first_) / 2;
     if (!std::isfinite(value)) return (last_ + end_) / 2;
-    const double share =
+    const double fraction =
         logarithmic_ ? std::log(value / low_) / std::log(high_ / low_) : (value - low_) / (high_ - low_);
-    return first_ + std::clamp(share, 0.0, 1.0) * (last_ - first_);
+    return first_ + std::clamp(fraction, 0.0, 1.0) * (last_ - first_);
 }
 
 void Axis::add(std::vector<PlotTick>& ticks, double value, const std::string& text) const {
@@ -76,11 +76,11 @@ void Axis::add(std::vector<PlotTick>& ticks, double value, const std::string& te
 
 void Axis::addEven(std::vector<PlotTick>& ticks) const {
     const double rough = (high_ - low_) / 6, power = std::pow(10.0, std::floor(std::log10(rough))),
-                 share = rough / power,
-                 step = power * (share <= 1   ? 1
-                                 : share <= 2 ? 2
-                                 : share <= 5 ? 5
-                                              : 10);
+                 fraction = rough / power,
+                 step = power * (fraction <= 1   ? 1
+                                 : fraction <= 2 ? 2
+                                 : fraction <= 5 ? 5
+                                                 : 10);
     for (double n = std::ceil(low_ / step); n * step <= high_; ++n) add(ticks, n * step, textOf(n * step));
 }
 

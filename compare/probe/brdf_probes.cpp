@@ -171,11 +171,11 @@ struct EnergyRow {
 
 EnergyRow energyRow(std::size_t row) {
     const std::size_t line = row / energy_line, k = row % energy_line;
-    const auto share = [](std::size_t i) { return static_cast<double>(i) / (energy_side - 1); };
+    const auto fraction = [](std::size_t i) { return static_cast<double>(i) / (energy_side - 1); };
     EnergyRow e{};
     const double min_roughness = double{gpu::MIN_PERCEPTUAL_ROUGHNESS};
-    e.roughness = min_roughness + (1 - min_roughness) * share(line / energy_side % energy_side);
-    const double down = share(line % energy_side);
+    e.roughness = min_roughness + (1 - min_roughness) * fraction(line / energy_side % energy_side);
+    const double down = fraction(line % energy_side);
     e.mu = std::max(1 - down * (2 - down), double{gpu::MIN_N_DOT_V});  // denser near the horizon
     const double alpha = e.roughness * e.roughness;
     e.v = {std::sqrt(1 - e.mu * e.mu), 0, e.mu};

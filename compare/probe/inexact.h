@@ -21,11 +21,11 @@ inline Random& inexactness() {
 
 inline Inexact anyOf(Interval x) {
     // Half of them are the ends.
-    const double share = std::clamp(inexactness().uniform(-0.5, 1.5), 0.0, 1.0);
+    const double fraction = std::clamp(inexactness().uniform(-0.5, 1.5), 0.0, 1.0);
     const double max_value = double{std::numeric_limits<float>::max()};
     const double lo = floatAbove(std::max(x.lo, -max_value)), hi = floatBelow(std::min(x.hi, max_value));
     if (hi <= lo) return static_cast<float>(lo);
-    return static_cast<float>(std::clamp(double{static_cast<float>(lo + (hi - lo) * share)}, lo, hi));
+    return static_cast<float>(std::clamp(double{static_cast<float>(lo + (hi - lo) * fraction)}, lo, hi));
 }
 
 inline Inexact operator+(Inexact a, Inexact b) {

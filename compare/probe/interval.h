@@ -125,8 +125,8 @@ inline Interval inverseRoot(Interval x) {
 inline Interval root(Interval x) {
     if (x.hi < 0) return anything();
     // 2 ULP of inversesqrt and 2.5 of the division; a ULP is 2^-24 to 2^-23 of a number.
-    const double lo = std::sqrt(std::max(x.lo, 0.0)), hi = std::sqrt(x.hi), share = 4.5 * 0x1p-23;
-    const Interval r = rounded(lo - lo * share, hi + hi * share);
+    const double lo = std::sqrt(std::max(x.lo, 0.0)), hi = std::sqrt(x.hi), fraction = 4.5 * 0x1p-23;
+    const Interval r = rounded(lo - lo * fraction, hi + hi * fraction);
     return x.lo < 0 ? hull(r, Interval(0.0f)) : r;
 }
 inline Interval powerOfTwo(Interval x) {

@@ -36,8 +36,8 @@ N attenuationSequence(Vec<N> to_light, N inverse_range_squared, N& inverse) {
 // No range, one far beyond the distance, or one close to it.
 float randomRange(Random& random, double distance) {
     if (random.bits() % 4 == 0) return 0;
-    const double share = random.coin() ? random.logarithmic(1, 1e3) : random.uniform(0.9, 1.1),
-                 inverse = 1 / (distance * share);
+    const double fraction = random.coin() ? random.logarithmic(1, 1e3) : random.uniform(0.9, 1.1),
+                 inverse = 1 / (distance * fraction);
     return static_cast<float>(std::clamp(inverse * inverse, 1e-37, 1e37));
 }
 
@@ -119,8 +119,8 @@ Probe spotProbe() {
     // The cone's two parameters: 1 / (cos inner - cos outer), and -cos outer times that.
     p.definition = [](const float* in, double* out) {
         const double c = -dot(unit(exactVec(in)), exactVec(in + 4));
-        const double share = std::clamp(c * double{in[7]} + double{in[8]}, 0.0, 1.0);
-        out[0] = attenuation(exactVec(in), double{in[3]}) * share * share;
+        const double fraction = std::clamp(c * double{in[7]} + double{in[8]}, 0.0, 1.0);
+        out[0] = attenuation(exactVec(in), double{in[3]}) * fraction * fraction;
     };
     // At the cone's edge the result is mostly rounding, so errors are in ULP of a point light's
     // irradiance.
@@ -134,8 +134,8 @@ Probe spotProbe() {
         const Vec<N> to = vecAt(in);
         const N point = attenuationSequence(to, in[3], inverse);
         const N cosine = dot(to * inverse, vecAt(in + 4));
-        const N share = min(max(in[8] - cosine * in[7], N(0.0f)), N(1.0f));
-        out[0] = point * (share * share);
+        const N fraction = min(max(in[8] - cosine * in[7], N(0.0f)), N(1.0f));
+        out[0] = point * (fraction * fraction);
     });
     return p;
 }

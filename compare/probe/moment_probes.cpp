@@ -127,7 +127,7 @@ Probe quantisedProbe() {
 
 // A filter over two depths.
 struct Filter {
-    double near, far, share;
+    double near, far, fraction;
 };
 Filter makeFilter(Random& random) {
     const double a = random.ends(0, 1),
@@ -151,7 +151,7 @@ Probe visibilityProbe(bool four) {
             const double rate = i < 2 ? double{in[0]} * (i + 1) : -double{in[1]} * (i - 1),
                          sign = i == 2 ? -1 : 1;
             const auto w = [&](double depth) { return sign * std::exp(rate * away(depth, double{in[2]})); };
-            in[6 + i] = static_cast<float>(w(f.near) * f.share + w(f.far) * (1 - f.share));
+            in[6 + i] = static_cast<float>(w(f.near) * f.fraction + w(f.far) * (1 - f.fraction));
         }
         const double between = f.near + (f.far - f.near) * random.uniform(-0.5, 1.5);
         in[10] = static_cast<float>(random.coin() ? random.uniform(0, 1) : std::clamp(between, 0.0, 1.0));
@@ -165,12 +165,12 @@ Probe visibilityProbe(bool four) {
             return w <= mean ? 1 : variance / (variance + (w - mean) * (w - mean));
         };
         const double c = double{in[0]}, k = double{in[1]};
-        double share = 1;
+        double fraction = 1;
         const double w = std::exp(c * d), n = -std::exp(-k * d);
         // The receiver is behind the mean if its warped depth is larger.
-        share = bound(double{in[6]}, double{in[7]}, c, w);
-        if (four) share = std::min(share, bound(double{in[8]}, double{in[9]}, k, n));
-        out[0] = std::clamp((share - double{in[3]}) / (1 - double{in[3]}), 0.0, 1.0);
+        fraction = bound(double{in[6]}, double{in[7]}, c, w);
+        if (four) fraction = std::min(fraction, bound(double{in[8]}, double{in[9]}, k, n));
+        out[0] = std::clamp((fraction - double{in[3]}) / (1 - double{in[3]}), 0.0, 1.0);
     };
     follow(p, [four]<class N>(const N* in, N* out) {
         const N one(1.0f), zero(0.0f), max_variance(1e30f);
@@ -180,14 +180,14 @@ Probe visibilityProbe(bool four) {
         };
         const N per_w = exponential(-in[0] * d), mean = in[6] * per_w, square = in[7] * per_w * per_w;
         N slope = in[0] * range;
-        N share = bound(one - mean, min(max(square - mean * mean, in[4] * slope * slope), max_variance));
+        N fraction = bound(one - mean, min(max(square - mean * mean, in[4] * slope * slope), max_variance));
         if (four) {
             const N per_mean = one / in[8], n = -exponential(-in[1] * d) * per_mean;
             slope = in[1] * range * n;
             const N variance = max(in[9] * per_mean * per_mean - one, in[4] * slope * slope);
-            share = min(share, bound(one - n, min(variance, max_variance)));
+            fraction = min(fraction, bound(one - n, min(variance, max_variance)));
         }
-        out[0] = min(max((share - in[3]) / (one - in[3]), zero), one);
+        out[0] = min(max((fraction - in[3]) / (one - in[3]), zero), one);
     });
     return p;
 }

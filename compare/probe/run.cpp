@@ -22,10 +22,10 @@ Result concluded(const Probe& probe, Tally tally) {
     Result result;
     result.probe = &probe;
     auto& errors = tally.errors;
-    const auto quantile = [&](double share) {
+    const auto quantile = [&](double fraction) {
         if (errors.empty()) return 0.0;
         const auto at =
-            errors.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(errors.size() - 1));
+            errors.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(errors.size() - 1));
         std::nth_element(errors.begin(), at, errors.end());
         return double{*at};
     };

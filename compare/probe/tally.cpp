@@ -46,9 +46,9 @@ void Tally::value(std::size_t row, std::size_t output, float got, double expecte
         ++histogram[binOf(in_units.error)];
         errors.push_back(static_cast<float>(std::min(in_units.error, 1e30)));
     }
-    Worst share = here;
-    share.error = counted == 0 ? 0 : granted > 0 ? counted / granted : max;
-    keepWorse(tightest, share);
+    Worst fraction = here;
+    fraction.error = counted == 0 ? 0 : granted > 0 ? counted / granted : max;
+    keepWorse(tightest, fraction);
 }
 
 void Tally::back(std::size_t row, float before, float after) {

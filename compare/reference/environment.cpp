@@ -56,11 +56,11 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, double factor
     weight_.resize(image_.pixels());
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            constexpr std::array<double, 3> share{0.125, 0.75, 0.125};
+            constexpr std::array<double, 3> fraction{0.125, 0.75, 0.125};
             double mean = 0;
             for (int dy = -1; dy <= 1; ++dy)
                 for (int dx = -1; dx <= 1; ++dx)
-                    mean += share[at(dx + 1)] * share[at(dy + 1)] * brightness(x + dx, y + dy);
+                    mean += fraction[at(dx + 1)] * fraction[at(dy + 1)] * brightness(x + dx, y + dy);
             weight_[at(y) * at(width) + at(x)] = mean * solid_[at(y)];
         }
     for (int j = 0; j < down_; ++j)
@@ -163,11 +163,12 @@ glm::dvec3 EnvironmentLight::Sampler::operator()(const glm::dvec2& u) const {
 double EnvironmentLight::Sampler::density(const glm::dvec3& direction) const {
     const Pixel pixel = light_.pixelOf(direction);
     const std::size_t index = light_.blockOf(pixel);
-    const double share = cumulative_[index] - (index > 0 ? cumulative_[index - 1] : 0);
+    const double fraction = cumulative_[index] - (index > 0 ? cumulative_[index - 1] : 0);
     const double all = light_.blocks_[index].rows.back();
-    if (!(share > 0)) return 0;
-    return share / cumulative_.back() * light_.weight_[at(pixel.y) * at(light_.image_.width) + at(pixel.x)] /
-           all / light_.solid_[at(pixel.y)];
+    if (!(fraction > 0)) return 0;
+    return fraction / cumulative_.back() *
+           light_.weight_[at(pixel.y) * at(light_.image_.width) + at(pixel.x)] / all /
+           light_.solid_[at(pixel.y)];
 }
 
 }  // namespace diptych::reference

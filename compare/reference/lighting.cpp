@@ -285,7 +285,7 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
     const std::vector<Incident> directions = incidentOn(surface, visible);
     const std::vector<Shining> shining = shiningOn(surface);
     const Between paths(surface);
-    const double share = paths.share();
+    const double fraction = paths.fraction();
     glm::dvec3 layer(0), sky(0);
     std::size_t walked = 0;
     const auto estimate = [&](std::size_t round, std::uint64_t index) {
@@ -294,19 +294,20 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
             for (const Incident& light : directions) add(light.to_light, light.irradiance);
             for (const Shining& light : shining) light.add(random, visible, add);
         });
-        layer += path.layer * share;
+        layer += path.layer * fraction;
         ++walked;
         // Stores the ambient part in `diffuse`.
         Reflected sum{path.weight * ambient_, path.direct};
         if (environment_ && (!shadowed_environment_ || !visible || visible(path.direction, infinity)))
             sum.specular += path.weight * environment_->radiance(path.direction) * surface.occlusion;
-        sky += (sum.specular - path.direct) * share;
-        return sum * share;
+        sky += (sum.specular - path.direct) * fraction;
+        return sum * fraction;
     };
     Estimated more{};
     const double whole = std::max({single.r, single.g, single.b});
     // Few paths meet a second facet, so each may use few samples.
-    if (share > Between::minShare) more = sampleUntilConfident(estimate, 1, share > 0.05 ? 8 : 1, whole, 0);
+    if (fraction > Between::minFraction)
+        more = sampleUntilConfident(estimate, 1, fraction > 0.05 ? 8 : 1, whole, 0);
     if (walked > 0) {
         layer /= static_cast<double>(walked);
         sky /= static_cast<double>(walked);

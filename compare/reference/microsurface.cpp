@@ -44,9 +44,9 @@ glm::dvec3 Microsurface::facet(const glm::dvec3& seen_from, Random& random) cons
 // A ray passes another height with probability (C / C')^Lambda, where C is the fraction of the surface
 // below. The logarithm of C suffices for any height distribution; 0 is the top.
 double Microsurface::next(const glm::dvec3& on, double height, Random& random) const {
-    const double passes = lambda(on), share = std::log1p(-random());
-    if (on.z > 0 && share <= passes * height) return 1;
-    return std::min(height - share / passes, 0.0);
+    const double passes = lambda(on), fraction = std::log1p(-random());
+    if (on.z > 0 && fraction <= passes * height) return 1;
+    return std::min(height - fraction / passes, 0.0);
 }
 
 // The phase function of facets visible from `back_`: D (Walter et al. 2007) over their projected area,
@@ -72,7 +72,7 @@ Between::Between(const Surface& surface)
     Surface white = surface_;
     white.albedo = glm::dvec3(1);
     white.metallic = 1;
-    share_ = std::max(1 - specularAlbedo(white).g, 0.0);
+    fraction_ = std::max(1 - specularAlbedo(white).g, 0.0);
 }
 
 Between::Path Between::path(Random& random, const std::function<void(const Add&)>& lights) const {
@@ -99,8 +99,8 @@ Between::Path Between::path(Random& random, const std::function<void(const Add&)
         if (++met > 1)
             lights([&](const glm::dvec3& to_light, const glm::dvec3& irradiance) {
                 const Microsurface::Facet::Seen seen = facet.of(local(to_light));
-                if (seen.share > 0)
-                    result.direct += mixed(reflected(weights, seen.cosine)) * (seen.share * irradiance);
+                if (seen.fraction > 0)
+                    result.direct += mixed(reflected(weights, seen.cosine)) * (seen.fraction * irradiance);
             });
         weights = reflected(weights, cosine);
     };

@@ -27,8 +27,8 @@ public:
             : surface_(surface), back_(back), height_(height) {}
 
         struct Seen {
-            double cosine;  // between the light and the normal of the facet that mirrors it
-            double share;   // fraction of the path's radiance from that light with F = 1, 1/sr
+            double cosine;    // between the light and the normal of the facet that mirrors it
+            double fraction;  // fraction of the path's radiance from that light with F = 1, 1/sr
         };
         Seen of(const glm::dvec3& to_light) const;
 
@@ -75,9 +75,9 @@ public:
     explicit Between(const Surface& surface);
 
     // The fraction of all paths from the viewer that meet at least two facets.
-    double share() const { return share_; }
+    double fraction() const { return fraction_; }
     // No paths are traced below this fraction of uniform light.
-    static constexpr double minShare = 0.002;
+    static constexpr double minFraction = 0.002;
 
     // A path that meets at least two facets, found by rejection.
     struct Path {
@@ -95,7 +95,7 @@ private:
     Surface surface_;
     Microsurface facets_;
     glm::dvec3 x_, y_, from_;
-    double share_;
+    double fraction_;
 };
 
 }  // namespace diptych::reference

@@ -118,7 +118,7 @@ private:
     // Light that passes a pane: its radiance behind the haze, and the fraction of light from behind that
     // passes; `uncertainty`: of the radiance, as in Shading.
     struct Passed {
-        glm::dvec3 radiance{0}, share{0};
+        glm::dvec3 radiance{0}, fraction{0};
         double uncertainty = 0;
     };
     // The way of light to a surface with transmission, seen along the pixel's ray.

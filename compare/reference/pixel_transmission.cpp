@@ -60,9 +60,9 @@ PixelRenderer::Sent PixelRenderer::sentAlong(const PixelRay& ray, const Ray& sea
 PixelRenderer::Passed PixelRenderer::passedAs(const Pane& pane, int component,
                                               const TransmittedLobe::Sample& lobe, std::uint64_t seed) const {
     const Surface& s = *pane.pixel.surface;
-    const glm::dvec3 share = pane.tint * attenuationOf(s, s.thickness) * lobe.weight,
+    const glm::dvec3 fraction = pane.tint * attenuationOf(s, s.thickness) * lobe.weight,
                      shift = slabShift(s, component);
-    if (share == glm::dvec3(0)) return {};
+    if (fraction == glm::dvec3(0)) return {};
     Sent sent;
     if (lobe.direction == -s.to_viewer) {
         PixelRay ray = pane.ray;
@@ -73,7 +73,8 @@ PixelRenderer::Passed PixelRenderer::passedAs(const Pane& pane, int component,
         const PixelRay ray = rayFrom(s.position + shift, lobe.direction);
         sent = sentAlong(ray, {ray.origin, ray.direction, 0, forever, pane.hit.id}, seed);
     }
-    return {sent.radiance * share, share, sent.uncertainty * std::max({share.r, share.g, share.b})};
+    return {sent.radiance * fraction, fraction,
+            sent.uncertainty * std::max({fraction.r, fraction.g, fraction.b})};
 }
 
 PixelRenderer::Passed PixelRenderer::passedMesh(const Pane& pane, int component, std::uint64_t seed) const {
@@ -81,11 +82,12 @@ PixelRenderer::Passed PixelRenderer::passedMesh(const Pane& pane, int component,
     Random random(seed);
     const std::optional<MeshPaths::End> end = mesh_paths_(pane.hit, s, indexOf(s, component), random);
     if (!end) return {};
-    const glm::dvec3 share = pane.tint * attenuationOf(s, end->length);
+    const glm::dvec3 fraction = pane.tint * attenuationOf(s, end->length);
     const PixelRay ray = rayFrom(end->origin, end->direction);
     const Sent sent =
         sentAlong(ray, {end->origin, end->direction, end->from, forever, end->without}, streamOf(seed, 1));
-    return {sent.radiance * share, share, sent.uncertainty * std::max({share.r, share.g, share.b})};
+    return {sent.radiance * fraction, fraction,
+            sent.uncertainty * std::max({fraction.r, fraction.g, fraction.b})};
 }
 
 bool PixelRenderer::goesThroughMesh(const Hit& hit) const {
@@ -104,7 +106,7 @@ PixelRenderer::Passed PixelRenderer::passedThrough(const Pane& pane, std::uint64
         for (int c = 0; c < 3; ++c) {
             const Passed one = of(c);
             all.radiance[c] = one.radiance[c];
-            all.share[c] = one.share[c];
+            all.fraction[c] = one.fraction[c];
             all.uncertainty = std::max(all.uncertainty, one.uncertainty);
         }
         return all;
@@ -117,7 +119,7 @@ PixelRenderer::Passed PixelRenderer::passedThrough(const Pane& pane, std::uint64
         const double u = random();
         turn = {u, random()};
     }
-    glm::dvec3 share(0);
+    glm::dvec3 fraction(0);
     std::size_t count = 0;
     // Each sample shades a surface with all lights, so it counts as many. A branch in a mesh that one path in
     // 25 takes, as in glass, is among the first 256 paths but for one pixel in 30,000.
@@ -130,12 +132,12 @@ PixelRenderer::Passed PixelRenderer::passedThrough(const Pane& pane, std::uint64
                 return mesh ? passedMesh(pane, c, stream)
                             : passedAs(pane, c, lobe(evenly(index, turns[round])), stream);
             });
-            share += one.share;
+            fraction += one.fraction;
             ++count;
             return Reflected{.transmitted = one.radiance};
         },
         worth, first, 0, 0);
-    return {found.value.transmitted, share / static_cast<double>(count), found.uncertainty};
+    return {found.value.transmitted, fraction / static_cast<double>(count), found.uncertainty};
 }
 
 // The light behind has the haze of its whole way: that in front of the pane, and that behind it. The pane's
@@ -147,8 +149,8 @@ double PixelRenderer::withPane(Pixel& pixel, double& end, const PixelRay& ray, s
     const glm::dvec3 tint = transmitted(*here.surface);
     const Passed passed = passedThrough({*hit, here, ray, tint}, streamOf(seed, 1));
     const Hazed& haze = here.haze;
-    const glm::dvec3 light = passed.radiance * haze.transmittance + haze.scattered * passed.share,
-                     own = here.lit - haze.scattered * passed.share;
+    const glm::dvec3 light = passed.radiance * haze.transmittance + haze.scattered * passed.fraction,
+                     own = here.lit - haze.scattered * passed.fraction;
     const double coverage = materials_.coverage(*hit, ray);
     pixel.lit = pixel.lit * (1 - coverage) + (own + light) * coverage;
     here.shading.uncertainty +=
@@ -159,7 +161,7 @@ double PixelRenderer::withPane(Pixel& pixel, double& end, const PixelRay& ray, s
     if (goesThroughMesh(*hit) || isBent(*here.surface))
         pixel.bent = coverage * std::max({tint.r, tint.g, tint.b});
     end = hit->t * (1 + 1e-6);
-    return 1 - coverage * (1 - std::clamp(luminance(passed.share), 0.0, 1.0));
+    return 1 - coverage * (1 - std::clamp(luminance(passed.fraction), 0.0, 1.0));
 }
 
 }  // namespace diptych::reference

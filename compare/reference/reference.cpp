@@ -104,7 +104,7 @@ public:
                 if (record.number < tiles) {
                     put(record.number, record.values);
                     there[record.number] = true;
-                    image_.kept_share += 1.0 / static_cast<double>(tiles);
+                    image_.kept_fraction += 1.0 / static_cast<double>(tiles);
                     image_.kept_seconds += double{record.values.front()} / tbb::info::default_concurrency();
                 }
         // The order of tiles is scattered over the image, so that the finished part predicts the remaining
@@ -121,7 +121,7 @@ public:
             if (request_.expected)
                 if (const auto seconds = expectedSeconds(request_.view.width, request_.view.height,
                                                          [&](int x, int y) { renderer.render(x, y); }))
-                    request_.expected(*seconds * (1 - image_.kept_share));
+                    request_.expected(*seconds * (1 - image_.kept_fraction));
             std::atomic<std::size_t> done{0};
             tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
                 const std::vector<float> values = renderTile(renderer, order[i]);

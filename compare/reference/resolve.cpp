@@ -17,8 +17,8 @@ constexpr double variancesOf95 = 1 / (1.96 * 1.96);
 // Adds only the errors of Shadings. With weights w = 1 / (1 + c), a change of 1 in a sample c moves the
 // mean L by w^2 (1 + L) over the sum of w; this adds the w^2. The curve's bend turns a sample's noise of
 // variance v into a bias of w v times that (second term of the series).
-void addErrors(Shading& sum, const Shading& sample, double weight, double share) {
-    const double u = sample.uncertainty, slope = share * weight * weight;
+void addErrors(Shading& sum, const Shading& sample, double weight, double fraction) {
+    const double u = sample.uncertainty, slope = fraction * weight * weight;
     sum.uncertainty += slope * (u + weight * u * u * variancesOf95);
     sum.costs += sample.costs * slope;
 }
@@ -30,19 +30,19 @@ double resolveWeight(Resolve resolve, const glm::dvec3& radiance) {
 }
 
 void ResolvedLight::add(const Pixel& sample) {
-    const double weight = resolveWeight(resolve_, sample.lit), share = share_ * weight;
-    const double unblended = share_ * resolveWeight(resolve_, sample.unblended);
-    sum_.lit += sample.lit * share;
-    sum_.shading += sample.shading * share;
-    sum_.haze.scattered += sample.haze.scattered * share;
-    sum_.transmitted += sample.transmitted * share;
-    sum_.blended += sample.blended * share;
+    const double weight = resolveWeight(resolve_, sample.lit), fraction = fraction_ * weight;
+    const double unblended = fraction_ * resolveWeight(resolve_, sample.unblended);
+    sum_.lit += sample.lit * fraction;
+    sum_.shading += sample.shading * fraction;
+    sum_.haze.scattered += sample.haze.scattered * fraction;
+    sum_.transmitted += sample.transmitted * fraction;
+    sum_.blended += sample.blended * fraction;
     sum_.unblended += sample.unblended * unblended;
-    weights_ += share;
+    weights_ += fraction;
     unblended_weights_ += unblended;
     if (resolve_ == Resolve::linear) return;
-    addErrors(errors_, sample.shading, weight, share_);
-    addErrors(blended_errors_, sample.blended, weight, share_);
+    addErrors(errors_, sample.shading, weight, fraction_);
+    addErrors(blended_errors_, sample.blended, weight, fraction_);
 }
 
 void ResolvedLight::put(Pixel& pixel) const {

@@ -18,7 +18,7 @@ double resolveWeight(Resolve resolve, const glm::dvec3& radiance);
 // Adds up to `samples` samples, in a fixed order.
 class ResolvedLight {
 public:
-    ResolvedLight(Resolve resolve, int samples) : resolve_(resolve), share_(1.0 / samples) {}
+    ResolvedLight(Resolve resolve, int samples) : resolve_(resolve), fraction_(1.0 / samples) {}
 
     void add(const Pixel& sample);
     // Writes the light of all samples to `pixel`: lit, its parts, and their errors.
@@ -26,7 +26,7 @@ public:
 
 private:
     Resolve resolve_;
-    double share_;
+    double fraction_;
     Pixel sum_;                                   // light times weight times share
     double weights_ = 0, unblended_weights_ = 0;  // times share
     Shading errors_, blended_errors_;             // propagated sample errors, if tonemapped

@@ -70,7 +70,7 @@ Pyramid::Pyramid(const TextureImage& image, bool srgb) : image_(image), srgb_(sr
                            static_cast<std::size_t>(level.height));
         // Texel x of this level (width w from W texels) covers the texels x W / w to (x + 1) W / w of the
         // level below.
-        const auto shares = [](int i, int from, int to) {
+        const auto fractions = [](int i, int from, int to) {
             const double begin = static_cast<double>(i) * from / to,
                          end = static_cast<double>(i + 1) * from / to;
             std::vector<std::pair<int, double>> taps;
@@ -80,9 +80,9 @@ Pyramid::Pyramid(const TextureImage& image, bool srgb) : image_(image), srgb_(sr
             return taps;
         };
         std::vector<std::vector<std::pair<int, double>>> columns;
-        for (int x = 0; x < level.width; ++x) columns.push_back(shares(x, w, level.width));
+        for (int x = 0; x < level.width; ++x) columns.push_back(fractions(x, w, level.width));
         for (int y = 0; y < level.height; ++y) {
-            const auto rows = shares(y, h, level.height);
+            const auto rows = fractions(y, h, level.height);
             for (int x = 0; x < level.width; ++x) {
                 glm::dvec4 sum(0);
                 for (const auto& [row, down] : rows)
@@ -144,12 +144,12 @@ glm::dvec4 Textures::operator()(const Texture& texture, bool srgb, const Footpri
     constexpr double min = 8, max = 64;
     const double across = std::abs(x.x * y.y - x.y * y.x) / longest;
     // Spacing of the points, in texels of level 0.
-    const double share = std::max(across / min, longest / max);
+    const double fraction = std::max(across / min, longest / max);
     const auto places = [&](const glm::dvec2& side) {
-        return static_cast<int>(std::clamp(std::ceil(glm::length(side) / share), min, max));
+        return static_cast<int>(std::clamp(std::ceil(glm::length(side) / fraction), min, max));
     };
     const int along_x = places(x), along_y = places(y);
-    const double exact = std::clamp(std::log2(std::max(share, 1.0)), 0.0, levels.levels() - 1.0);
+    const double exact = std::clamp(std::log2(std::max(fraction, 1.0)), 0.0, levels.levels() - 1.0);
     const int level = static_cast<int>(exact);
     glm::dvec4 sum(0);
     for (int j = 0; j < along_y; ++j)

@@ -52,9 +52,9 @@ glm::dvec3 interference(double path, const glm::dvec3& shift) {
 // Airy's sum up to the second order.
 glm::dvec3 ThinFilm::reflected(double cosine, const glm::dvec3& f0) const {
     const double outer = std::clamp(cosine, 0.0, 1.0);
-    const double share = std::clamp(thickness / 0.03, 0.0, 1.0);  // a film fades out below 0.03 nm
+    const double fraction = std::clamp(thickness / 0.03, 0.0, 1.0);  // a film fades out below 0.03 nm
     // Its upper face fades with it: Schlick's curve would reflect at grazing angles with air on both sides.
-    const double present = square(share) * (3 - 2 * share), n = std::lerp(1.0, ior, present);
+    const double present = square(fraction) * (3 - 2 * fraction), n = std::lerp(1.0, ior, present);
     const double inner = std::sqrt(std::max(1 - (1 - square(outer)) / square(n), 0.0));
     const double top = present * schlick(square((n - 1) / (n + 1)), outer), passed = 1 - top;
     glm::dvec3 bottom, shift;

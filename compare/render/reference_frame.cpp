@@ -75,20 +75,20 @@ bool isLitFromEverywhere(const Scene& scene, const Settings& settings) {
 // `surroundings`: W x H x 2, light and its occluded part; empty if there is none.
 std::optional<Frame::HiddenLight> hiddenLight(const Image& surroundings) {
     double all = 0, hidden = 0, above = 0;
-    std::vector<double> shares;
+    std::vector<double> fractions;
     for (std::size_t i = 0; i < surroundings.pixels(); ++i) {
         const float* const p = surroundings.pixel(i);
         if (!(p[0] > 0)) continue;
         all += double{p[0]};
         hidden += double{p[1]};
-        shares.push_back(double{p[1]} / double{p[0]});
-        above += shares.back() > 0.1;
+        fractions.push_back(double{p[1]} / double{p[0]});
+        above += fractions.back() > 0.1;
     }
-    if (shares.empty()) return {};
-    const auto count = static_cast<double>(shares.size());
+    if (fractions.empty()) return {};
+    const auto count = static_cast<double>(fractions.size());
     const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * count)) - 1;
-    std::ranges::nth_element(shares, shares.begin() + rank);
-    return Frame::HiddenLight{hidden / all, shares[static_cast<std::size_t>(rank)], above / count};
+    std::ranges::nth_element(fractions, fractions.begin() + rank);
+    return Frame::HiddenLight{hidden / all, fractions[static_cast<std::size_t>(rank)], above / count};
 }
 
 std::string hiddenLightNote(const Frame::HiddenLight& hidden) {
@@ -191,11 +191,11 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     });
     std::erase_if(frame.through_gbuffer, [&](const auto& entry) { return isUnwanted(entry.first); });
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (rendered.kept_share > 0)
+    if (rendered.kept_fraction > 0)
         frame.notes.push_back(fmt::format(
             "the reference resumed at {:.0f} %, which an interrupted command had rendered in {}; the rest "
             "took {}",
-            std::floor(100 * rendered.kept_share), clockText(rendered.kept_seconds), clockText(now)));
+            std::floor(100 * rendered.kept_fraction), clockText(rendered.kept_seconds), clockText(now)));
     frame.made_in_ms = 1000 * (now + rendered.kept_seconds) + (surfaces ? surfaces->made_in_ms : 0);
     return frame;
 }

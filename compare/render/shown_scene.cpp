@@ -66,7 +66,7 @@ void checkAsked(const std::string& file, const std::string& where, const Setting
           static_cast<std::uint64_t>(shadowBytes(settings)));
 }
 
-double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames) {
+double loadingFraction(const std::string& scene, const RenderOptions& render, std::size_t frames) {
     // In units of one rendered frame, roughly. File sizes vary widely; built-in scenes load at once.
     const double load = scene.starts_with("builtin:") ? 0.1 : 4;
     return load / (load + framesIn(render) * static_cast<double>(frames));

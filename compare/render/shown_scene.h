@@ -24,6 +24,6 @@ void requireTriangles(const Scene& scene, const std::string& where);
 void checkAsked(const std::string& file, const std::string& where, const Settings& settings);
 
 // Fraction of a scene's time that loading takes if `frames` Frames are rendered, 0 to 1.
-double loadingShare(const std::string& scene, const RenderOptions& render, std::size_t frames);
+double loadingFraction(const std::string& scene, const RenderOptions& render, std::size_t frames);
 
 }  // namespace diptych

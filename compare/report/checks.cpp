@@ -44,10 +44,10 @@ public:
     std::string to(const PixelBox& box) const {
         const Size& size = left_.settings.size;
         const double width = box.x1 - box.x0, height = box.y1 - box.y0,
-                     share = 1.35 * std::max(width / size.width, height / size.height);
+                     fraction = 1.35 * std::max(width / size.width, height / size.height);
         const DebugMode& mode = *comparison_.channels[channelFor(box)].mode;
         return fmt::format("#{}@{},{}?zoom={:.3g}&at={},{}", cardId(id_, mode), (box.x0 + box.x1) / 2,
-                           (box.y0 + box.y1) / 2, 1 / std::clamp(share, 1.0 / 8, 1.0),
+                           (box.y0 + box.y1) / 2, 1 / std::clamp(fraction, 1.0 / 8, 1.0),
                            0.5 * (box.x0 + box.x1 - 1), 0.5 * (box.y0 + box.y1 - 1));
     }
 

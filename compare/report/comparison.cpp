@@ -56,7 +56,7 @@ Cell usedCell(const ChannelDiff& channel) {
     if (channel.stats.different == 0) return Span("equal", Span::words, "soft");
     if (!channel.rule.empty()) return Span(channel.rule, Span::words, "soft wide");
     return Span(fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
-                            nameOf(channel.verdict), 100 * std::min(usedShare(channel), 1.0)),
+                            nameOf(channel.verdict), 100 * std::min(usedFraction(channel), 1.0)),
                 Span::drawn);
 }
 
@@ -65,7 +65,7 @@ Cell verdictCell(const ChannelDiff& channel) {
     const std::string_view verdict = nameOf(channel.verdict);
     Text page = Span(verdict, Span::verdict, verdict);
     if (channel.verdict == Verdict::fail && channel.criterion && channel.criterion->pixels > 0)
-        page.spans.emplace_back(fmt::format("{} of the pixels{}", percentText(channel.criterion->share),
+        page.spans.emplace_back(fmt::format("{} of the pixels{}", percentText(channel.criterion->fraction),
                                             channel.criterion->differing ? " differ" : ""),
                                 Span::words, "beyond");
     return either(channel.verdict == Verdict::fail ? "FAIL" : verdict, page);

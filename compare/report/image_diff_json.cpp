@@ -71,7 +71,7 @@ Json channelJson(const ImageChannelDiff* of) {
     if (const auto& c = channel.decision.criterion)
         json["criterion"] = {{"figure", c->metric},
                              {"measured", finiteOrNull(c->measured)},
-                             {c->differing ? "differing_share" : "share_beyond", c->share}};
+                             {c->differing ? "differing_share" : "share_beyond", c->fraction}};
     json["rule"] = fmt::format("{}: {}", channel.rule.origin, conditionText(channel.rule.fail));
     json["because"] = channel.rule.because;
     json["verdict"] = channel.decision.level == Level::fail ? "fail" : "pass";

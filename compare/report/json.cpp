@@ -28,7 +28,7 @@ Json jsonOf(const Criterion& criterion) {
             {"measured", finiteOrNull(criterion.measured)},
             {criterion.min ? "least" : "limit", finiteOrNull(criterion.limit)},
             {criterion.differing ? "differing_pixels" : "pixels_beyond", criterion.pixels},
-            {criterion.differing ? "differing_share" : "share_beyond", criterion.share}};
+            {criterion.differing ? "differing_share" : "share_beyond", criterion.fraction}};
 }
 
 Json jsonOf(const std::vector<Granted>& granted) {

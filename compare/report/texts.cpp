@@ -26,7 +26,7 @@ const ChannelDiff* worstOf(const Comparison& comparison) {
             if ((channel.verdict == Verdict::fail) != failing || !isCompared(channel.verdict)) continue;
             // Their largest error equals the tolerance
             if (!failing && channel.unexplained_pixels) continue;
-            if (!worst || usedShare(channel) > usedShare(*worst)) worst = &channel;
+            if (!worst || usedFraction(channel) > usedFraction(*worst)) worst = &channel;
         }
         if (worst) return worst;
     }
@@ -52,7 +52,7 @@ IndexRow indexRowOf(const Report& report, const Comparison& comparison) {
     IndexRow row;
     if (const ChannelDiff* worst = worstOf(comparison)) {
         row.worst = worst->mode;
-        row.used = sortable(usedShare(*worst));
+        row.used = sortable(usedFraction(*worst));
     }
     const Frame &left_frame = report.baseline(comparison), &right_frame = report.test(comparison);
     const FrameTime &left = left_frame.time, &right = right_frame.time;
@@ -67,7 +67,7 @@ IndexRow indexRowOf(const Report& report, const Comparison& comparison) {
         if (!isCompared(channel.verdict)) continue;
         const ChannelStats& s = channel.stats;
         row.channels.push_back({std::string(channel.mode->name), std::string(nameOf(channel.verdict)),
-                                sortable(usedShare(channel)), sortable(s.max), sortable(s.mean),
+                                sortable(usedFraction(channel)), sortable(s.max), sortable(s.mean),
                                 sortable(s.rmse), sortable(s.p99), sortable(s.p999),
                                 channel.flip ? sortable(*channel.flip) : -1,
                                 noiseOf(left_frame, channel) + noiseOf(right_frame, channel)});

@@ -118,8 +118,8 @@ ReportPart Collection::compareOne(const Item& item, const Scene& scene, const St
     KeptReferences references(question_.folder, true);
     RenderOptions render = question_.drawing;
     render.keep = references.opener();
-    const auto [drawing, comparing] = experiment::sharesOf(render);
-    const double ours = question_.compared.ourShare() * drawing;
+    const auto [drawing, comparing] = experiment::fractionsOf(render);
+    const double ours = question_.compared.ourFraction() * drawing;
     render.progress = stage.part(0, ours);
     experiment::DrawnScene drawn = experiment::drawScene(scene, question_.compared, question_.settings,
                                                          devices_, render, stage.part(ours, drawing));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-double share(std::size_t part, std::size_t all) {
+double fraction(std::size_t part, std::size_t all) {
     return all == 0 ? 0 : static_cast<double>(part) / static_cast<double>(all);
 }
 
@@ -48,7 +48,7 @@ std::optional<ShadowErrors> shadowErrorsOf(const Frame& reference, const Frame& 
     const auto ofAll = [&](double energy) {
         return arrives > 0 ? energy / arrives : energy > 0 ? unbounded : 0;
     };
-    return ShadowErrors{ofAll(wrong), share(lit, away), share(dark, away), ofAll(leaked),
+    return ShadowErrors{ofAll(wrong), fraction(lit, away), fraction(dark, away), ofAll(leaked),
                         experiment::nearestRank(std::move(gaps), 0.99)};
 }
 
@@ -59,7 +59,7 @@ std::optional<Settings> exactEdges(const Settings& settings) {
     return exact;
 }
 
-std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& frame) {
+std::optional<SampleFractions> sampleFractionsOf(const Frame& exact, const Frame& frame) {
     const Image *lit = findChannel(frame, Channel::lit), *exact_lit = findChannel(exact, Channel::lit),
                 *shaded = findChannel(frame, Channel::shaded_samples),
                 *exact_shaded = findChannel(exact, Channel::shaded_samples);
@@ -75,8 +75,8 @@ std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& fram
         differing += differs;
         elsewhere += differs && count >= exact_shaded->pixel(i)[0];
     }
-    if (pixels == 0) return SampleShares{};
-    return SampleShares{surfaces / pixels, edges / pixels, differing / pixels, elsewhere / pixels};
+    if (pixels == 0) return SampleFractions{};
+    return SampleFractions{surfaces / pixels, edges / pixels, differing / pixels, elsewhere / pixels};
 }
 
 }  // namespace diptych::tradeoff

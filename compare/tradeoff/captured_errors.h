@@ -9,7 +9,7 @@
 
 namespace diptych::tradeoff {
 
-using experiment::SampleShares;
+using experiment::SampleFractions;
 using experiment::ShadowErrors;
 
 // Compared with traced rays of the reference. Empty if the reference traced no shadow-casting sun, or if the
@@ -22,6 +22,6 @@ std::optional<ShadowErrors> shadowErrorsOf(const Frame& reference, const Frame& 
 std::optional<Settings> exactEdges(const Settings& settings);
 
 // Empty if a Frame lacks shaded_samples or lit.
-std::optional<SampleShares> sampleSharesOf(const Frame& exact, const Frame& frame);
+std::optional<SampleFractions> sampleFractionsOf(const Frame& exact, const Frame& frame);
 
 }  // namespace diptych::tradeoff

@@ -61,9 +61,9 @@ void addCaptured(Renderer& renderer, const Frame& reference, const RenderOptions
     if (!exact) return;
     drawing.on_step = {};
     drawing.progress = {};
-    if (const auto shares =
-            sampleSharesOf(*exact == frame.settings ? frame : renderer.draw(*exact, drawing), frame))
-        camera.measured.set(Measure::shaded, *shares);
+    if (const auto fractions =
+            sampleFractionsOf(*exact == frame.settings ? frame : renderer.draw(*exact, drawing), frame))
+        camera.measured.set(Measure::shaded, *fractions);
 }
 
 Image8 small(Image8 image) {

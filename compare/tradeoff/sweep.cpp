@@ -64,7 +64,7 @@ Sweep::Sweep(SweepQuestion question, Device& device, const Stage& stage)
       device_(device),
       stage_(stage),
       tradeoff_(begun(question_, device)),
-      loaded_(loadingShare(question_.scene, question_.drawing, rows().size() * question_.cameras.size())),
+      loaded_(loadingFraction(question_.scene, question_.drawing, rows().size() * question_.cameras.size())),
       scene_(loadShown(question_.scene, question_.settings, stage.part(0, loaded_))),
       views_(scene_),
       renderer_(device, sensitiveViews()),

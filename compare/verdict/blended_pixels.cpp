@@ -26,10 +26,11 @@ const Image* BlendedPixels::imageOf(const DebugMode& mode) const {
 double BlendedPixels::throughGlass(const DebugMode& mode, std::size_t pixel) const {
     if (!isLit(mode.channel) || !imageOf(mode)) return 0;
     const Image& glass = reference_->blended;
-    double share = 0;
+    double fraction = 0;
     within(glass, pixel, 1,
-           [&](std::size_t i, int, int) { share = std::max(share, double{glass.pixel(i)[1]}); });
-    return share > 0 ? std::max(share * brightest_, metrics::largestFinite(glass.pixel(pixel) + 2, 1)) : 0;
+           [&](std::size_t i, int, int) { fraction = std::max(fraction, double{glass.pixel(i)[1]}); });
+    return fraction > 0 ? std::max(fraction * brightest_, metrics::largestFinite(glass.pixel(pixel) + 2, 1))
+                        : 0;
 }
 
 double BlendedPixels::allowed(const DebugMode& mode, std::size_t pixel) const {
@@ -55,9 +56,9 @@ double BlendedPixels::texel(const DebugMode& mode) const {
 
 bool BlendedPixels::anyGlass() const {
     if (!reference_) return false;
-    const Image& shares = reference_->blended;
-    for (std::size_t i = 0; i < shares.pixels(); ++i)
-        if (shares.pixel(i)[1] > 0) return true;
+    const Image& fractions = reference_->blended;
+    for (std::size_t i = 0; i < fractions.pixels(); ++i)
+        if (fractions.pixel(i)[1] > 0) return true;
     return false;
 }
 

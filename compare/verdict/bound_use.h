@@ -20,7 +20,7 @@ struct BoundUse {
 
 // For one pixel: its error divided by its bound (0 without an error), and the bound.
 struct PixelUse {
-    double share = 0, bound = 0;
+    double fraction = 0, bound = 0;
 };
 inline PixelUse pixelUse(double error, double bound) {
     return {error == 0 ? 0 : error / bound, bound};
@@ -33,15 +33,15 @@ BoundUse boundUse(const Coverage& coverage, int width, const Of& of) {
     BoundUse use;
     for (std::size_t i = 0; i < coverage.covered.size(); ++i) {
         if (!coverage.covered[i]) continue;
-        const auto [share, bound] = of(i);
+        const auto [fraction, bound] = of(i);
         if (std::isfinite(bound)) {
             use.max = std::max(use.max, bound);
             use.mean += bound;
         }
-        if (share == 0) continue;
-        use.beyond += !(share <= 1);
-        if (!(share > use.used) && use.x >= 0) continue;
-        use.used = share;
+        if (fraction == 0) continue;
+        use.beyond += !(fraction <= 1);
+        if (!(fraction > use.used) && use.x >= 0) continue;
+        use.used = fraction;
         use.x = static_cast<int>(i % static_cast<std::size_t>(width));
         use.y = static_cast<int>(i / static_cast<std::size_t>(width));
     }

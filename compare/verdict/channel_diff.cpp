@@ -53,29 +53,29 @@ Criterion criterionOf(const ChannelDiff& channel, std::optional<std::uint64_t> b
 // Error message of the criterion; empty if it passes.
 std::string faultOf(const ChannelDiff& channel) {
     const Criterion& c = *channel.criterion;
-    const std::string share = percentText(c.share);
+    const std::string fraction = percentText(c.fraction);
     if (channel.unexplained_pixels.value_or(0) > 0)
         return fmt::format("the encoding does not explain the difference at {} ({})",
-                           counted(*channel.unexplained_pixels, "pixel"), share);
+                           counted(*channel.unexplained_pixels, "pixel"), fraction);
     if (isBeyondItsBits(channel)) {
         const BoundUse& use = *channel.encoding_use;
         return fmt::format(
             "the G-buffer's bits do not explain the difference at {} ({}): {:.3g} times their bound at "
             "{},{}",
-            counted(use.beyond, "pixel"), share, use.used, use.x, use.y);
+            counted(use.beyond, "pixel"), fraction, use.used, use.x, use.y);
     }
     if (const auto& use = channel.device_use)
         return use->beyond == 0 ? std::string()
                                 : fmt::format(
                                       "the two devices' precision does not explain the difference at {} ({}) "
                                       "of the same surface: {:.3g} times the bound at {},{}",
-                                      counted(use->beyond, "pixel"), share, use->used, use->x, use->y);
+                                      counted(use->beyond, "pixel"), fraction, use->used, use->x, use->y);
     if (const auto& f = channel.footprints) {
         if (!(f->used <= 1))
             return fmt::format(
                 "the error exceeds its bound at {} ({}) with smooth surroundings: p99.9 is {:.3g} times the "
                 "bound, the largest at {},{}",
-                counted(f->beyond, "pixel"), share, f->used, f->x, f->y);
+                counted(f->beyond, "pixel"), fraction, f->used, f->x, f->y);
         if (!(f->flip <= detailFlip))
             return fmt::format("mean FLIP {:.3g} over {} with detail exceeds {}", f->flip,
                                counted(f->detailed, "pixel"), detailFlip);
@@ -86,12 +86,12 @@ std::string faultOf(const ChannelDiff& channel) {
                       limit = digitsApart(c.limit, c.measured, 4);
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     return channel.tolerance.max_pixels
-               ? fmt::format("{} of the pixels exceed {}, and at most 0.1 % may: {} is {}{}", share, limit,
+               ? fmt::format("{} of the pixels exceed {}, and at most 0.1 % may: {} is {}{}", fraction, limit,
                              c.metric, measured,
                              channel.certain_p999 ? "; excess: the error minus the reference's uncertainty "
                                                     "and the encoding's change"
                                                   : "")
-               : fmt::format("max {} exceeds {} at {} of the pixels", measured, limit, share);
+               : fmt::format("max {} exceeds {} at {} of the pixels", measured, limit, fraction);
 }
 
 // If NaN or infinity contributes to a channel's failure, mentions it before any metric, because no mean
@@ -155,7 +155,7 @@ Outside outside(Domain domain, const float* p, int components) {
     }
     for (int c = 0; c < components; ++c) {
         look(p[c], -double{p[c]});
-        if (domain == Domain::share) look(p[c], double{p[c]} - 1);
+        if (domain == Domain::ratio) look(p[c], double{p[c]} - 1);
     }
     return worst;
 }
@@ -163,7 +163,7 @@ Outside outside(Domain domain, const float* p, int components) {
 const char* faultOf(Domain domain) {
     return domain == Domain::unit           ? "vectors are not of unit length"
            : domain == Domain::unit_or_zero ? "vectors are neither 0 nor of unit length"
-           : domain == Domain::share        ? "values are not between 0 and 1"
+           : domain == Domain::ratio        ? "values are not between 0 and 1"
                                             : "values are negative";
 }
 
@@ -233,7 +233,7 @@ void evaluate(ChannelDiff& channel, const FramePair& pair, const Measurement& me
     }
     if (!isInformative(mode, pair)) {
         channel.criterion = criterionOf(channel, beyond, measurement);
-        channel.criterion->share = std::min(1.0, measurement.shareOf(channel.criterion->pixels));
+        channel.criterion->fraction = std::min(1.0, measurement.fractionOf(channel.criterion->pixels));
         channel.reason = faultOf(channel);
         leadWithNonfinite(channel, pair);
     }
@@ -270,7 +270,7 @@ Tolerance informativeTolerance(const FramePair& pair) {
                         pair.light_differs)};
 }
 
-double usedShare(const ChannelDiff& channel) {
+double usedFraction(const ChannelDiff& channel) {
     constexpr double endless = std::numeric_limits<double>::infinity();
     if (!isCompared(channel.verdict) || channel.stats.max == 0) return 0;
     if (channel.verdict == Verdict::fail && channel.unexplained_pixels.value_or(0) > 0) return endless;

@@ -62,7 +62,7 @@ struct ChannelDiff {
 };
 
 // Fraction of its tolerance that a channel uses; infinite if it differs without any tolerance.
-double usedShare(const ChannelDiff& channel);
+double usedFraction(const ChannelDiff& channel);
 
 // Whether a channel depends on light and the two sides have different lighting Settings. Without a rule,
 // such a channel is shown but decides nothing.

@@ -172,9 +172,9 @@ Image8 closerPathImage(const Image& apart, double top) {
     Image8 image{apart.width, apart.height, 3, {}};
     image.data.reserve(3 * apart.pixels());
     for (const float v : apart.data) {
-        const double share = std::isnan(v) ? 0 : std::sqrt(std::min(std::abs(double{v}) / top, 1.0));
+        const double fraction = std::isnan(v) ? 0 : std::sqrt(std::min(std::abs(double{v}) / top, 1.0));
         for (const double c : color[v < 0 ? 0 : 1])
-            image.data.push_back(static_cast<std::uint8_t>(std::lround(c * share)));
+            image.data.push_back(static_cast<std::uint8_t>(std::lround(c * fraction)));
     }
     return image;
 }

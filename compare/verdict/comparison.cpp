@@ -155,7 +155,7 @@ std::string emptinessOf(const Frame& left, const Frame& right, const Coverage& c
         return fmt::format("only {} of the image shows the scene", percentText(shown));
     const auto litOf = [&](const Frame& frame) {
         const Image* const lit = findChannel(frame, Channel::lit);
-        return lit && frame.isRequested(Channel::lit) ? litShare(*lit, coverage) : 1.0;
+        return lit && frame.isRequested(Channel::lit) ? litFraction(*lit, coverage) : 1.0;
     };
     const double lit = std::max(litOf(left), litOf(right));
     if (lit == 0) return "both images are black: no light reaches a visible surface";
@@ -186,7 +186,7 @@ std::string waysOfEvaluating(const std::vector<ChannelDiff>& channels) {
 std::string looselyEvaluated(const std::vector<ChannelDiff>& channels) {
     std::vector<std::string> words;
     for (const ChannelDiff& channel : channels)
-        if (const auto& f = channel.footprints; f && f->closeShare() < minCloseShare)
+        if (const auto& f = channel.footprints; f && f->closeFraction() < minCloseFraction)
             words.push_back(fmt::format(
                 "{} ({} of {} pixels{})", channel.mode->name, f->smooth, f->pixels(),
                 f->detailed > 0 ? fmt::format(", the others by a mean FLIP of {}", detailFlip) : ""));

@@ -20,8 +20,8 @@ constexpr double kink = 2;
 // Relative difference of two devices' sRGB decoding, indexed by the smallest possible code (a factor may
 // have darkened a texel, never brightened it). As measured, and at most what Vulkan permits, half a code
 // each.
-std::array<double, 256> decodeShares(const AcrossDevices& across) {
-    std::array<double, 256> shares{};
+std::array<double, 256> decodeFractions(const AcrossDevices& across) {
+    std::array<double, 256> fractions{};
     const auto &a = across.devices[0].texels, &b = across.devices[1].texels;
     double max = 0;
     for (std::size_t code = 255; code > 0; --code) {
@@ -29,10 +29,10 @@ std::array<double, 256> decodeShares(const AcrossDevices& across) {
                      allowed = code < 255 ? std::max(code_step, exactSrgb(code + 1) - exact) : code_step,
                      measured = a && b ? std::abs(double{a->srgb[code]} - double{b->srgb[code]}) : allowed;
         max = std::max(max, std::min(allowed, measured) / exact);
-        shares[code] = max;
+        fractions[code] = max;
     }
-    shares[0] = max;
-    return shares;
+    fractions[0] = max;
+    return fractions;
 }
 
 // Rounding of 8-bit texels by both devices' filters: as measured, and at most one code each.
@@ -123,11 +123,11 @@ bool Shadowed::differs(std::size_t i) const {
 }
 
 double Shadowed::relative(std::size_t i) const {
-    double share = 0;
+    double fraction = 0;
     for (const auto& [a, b, baseline] : images_)
         if (const double min = std::min(*a->pixel(i), *b->pixel(i)); min > 0)
-            share += metrics::distance(*a->pixel(i), *b->pixel(i)) / min;
-    return share;
+            fraction += metrics::distance(*a->pixel(i), *b->pixel(i)) / min;
+    return fraction;
 }
 
 bool Shadowed::isBesideEdge(std::size_t i) const {
@@ -191,7 +191,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
     if (mode.channel == Channel::lit && !pair.baseline.unblended.empty() && !pair.test.unblended.empty())
         unblended_ = {&pair.baseline.unblended, &pair.test.unblended};
     if (!texels_ || !isColor()) return;
-    shares_ = decodeShares(across_);
+    fractions_ = decodeFractions(across_);
     for (std::size_t code = 0; code < 256; ++code) exact_[code] = exactSrgb(code);
 }
 
@@ -319,7 +319,7 @@ double DeviceBounds::decoded(double value) const {
     const bool radiance = mode_.error_kind == ErrorKind::relative;
     std::size_t code = radiance ? 1 : 0;  // a factor may have brightened it
     while (!radiance && code < 254 && exact_[code + 1] <= value) ++code;
-    return value * shares_[code];
+    return value * fractions_[code];
 }
 
 // Albedo is diffuse times 1 - F0. Without that channel, both may be 1.
@@ -348,7 +348,7 @@ std::string DeviceBounds::decoding() const {
     if (!isColor())
         return "; filters round by up to " +
                fmt::format("{:.2g} of an 8-bit step", 255 * filterRounding(across_, false));
-    return fmt::format("; their sRGB decoding differs by up to {:.2g} %", 100 * shares_[1]);
+    return fmt::format("; their sRGB decoding differs by up to {:.2g} %", 100 * fractions_[1]);
 }
 
 BoundUse deviceUse(const DebugMode& mode, const FramePair& pair) {

@@ -87,8 +87,8 @@ private:
     bool darkens_;     // albedo, of a scene with specular-glossiness
     const Image* f0_;  // nullptr: not drawn
     Shadowed shadowed_;
-    std::array<const Image*, 2> unblended_{};     // of lit, if anything may be blended
-    std::array<double, 256> shares_{}, exact_{};  // decodeShares(), exactSrgb()
+    std::array<const Image*, 2> unblended_{};        // of lit, if anything may be blended
+    std::array<double, 256> fractions_{}, exact_{};  // decodeFractions(), exactSrgb()
 };
 
 // Use of the tolerance at each covered pixel.

@@ -22,7 +22,7 @@ constexpr double squareSlack = 2 * unormSlack;
 
 // float32 error of x = (n - 1) / (n + 1): 7 units of 2^-24 of it to encode (two sums and a division), 9 to
 // scale, round and decode it; and of (1 + x) / (1 - x) from x, relative: two sums, a division, doubled.
-constexpr double indexSlack = 16 * 0x1p-24, indexShare = 14 * 0x1p-24;
+constexpr double indexSlack = 16 * 0x1p-24, indexFraction = 14 * 0x1p-24;
 
 // float32 error of the angle's polynomial (shaders/lib/math/angles.glsl, relative 6e-7), of sine and cosine,
 // and of the plane's axes, radians. Vulkan permits a sine 2^-11 off; lavapipe stays within this.
@@ -87,7 +87,8 @@ FloatBound halfBound(unsigned bits) {
 // error of x - h is smaller. One code fewer than all counts, because code 0 is free.
 double indexBound(double n, unsigned bits) {
     const double h = 0.5 / static_cast<double>((1u << bits) - 2) + indexSlack, rest = 2 / (n + 1);
-    return rest > h ? 2 * h / (rest * (rest - h)) + indexShare * n : std::numeric_limits<double>::infinity();
+    return rest > h ? 2 * h / (rest * (rest - h)) + indexFraction * n
+                    : std::numeric_limits<double>::infinity();
 }
 
 // Rounding moves a point of the octahedron |x|+|y|+|z| = 1 by up to (h, h, -2h), h = 0.5 / (2^(bits-1) -

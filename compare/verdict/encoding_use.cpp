@@ -19,7 +19,7 @@ PixelUse componentsUse(const float* read, const float* own, int components, cons
     for (int c = 0; c < components; ++c) {
         const double x = own[c];
         const PixelUse here = pixelUse(metrics::distance(read[c], own[c]), bound(x, !(x > 0 && x < 1)));
-        use = {std::max(use.share, here.share), std::max(use.bound, here.bound)};
+        use = {std::max(use.fraction, here.fraction), std::max(use.bound, here.bound)};
     }
     return use;
 }
@@ -29,7 +29,7 @@ PixelUse componentsUse(const float* read, const float* own, int components, cons
 PixelUse floatUse(const float* read, const float* own, int components, FloatBound of, double slack) {
     const double size = metrics::largestFinite(own, components);
     const double bound = size > 0 ? std::max(size * of.relative, of.min) + size * slack : 0;
-    return {pixelUse(metrics::distance(read, own, components), bound).share, size > 0 ? bound / size : 0};
+    return {pixelUse(metrics::distance(read, own, components), bound).fraction, size > 0 ? bound / size : 0};
 }
 
 // A field that is stored exactly: nothing but the slack is granted.
@@ -92,7 +92,7 @@ std::optional<BoundUse> encodingUse(const DebugMode& mode, const FramePair& pair
         for (const auto& [a, b] : samples) {
             const PixelUse here = field ? storedUse(*field, a->pixel(i), b->pixel(i), mode.width, slack)
                                         : exactUse(mode, a->pixel(i), b->pixel(i), slack);
-            worst = {std::max(worst.share, here.share), std::max(worst.bound, here.bound)};
+            worst = {std::max(worst.fraction, here.fraction), std::max(worst.bound, here.bound)};
         }
         return worst;
     });

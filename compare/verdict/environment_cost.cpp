@@ -29,7 +29,7 @@ double spreadOf(const Settings& settings) {
     return 4 * std::numbers::pi * std::exp2(2 * double{settings.ibl_bias}) / settings.ibl_samples;
 }
 double sampledPart(const Settings& settings) {
-    return sampledShare / std::sqrt(static_cast<double>(settings.ibl_samples));
+    return sampledFraction / std::sqrt(static_cast<double>(settings.ibl_samples));
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ double EnvironmentCost::allowedSpecular(const DebugMode& mode, std::size_t pixel
     const bool split = settings_->ibl == Ibl::split;
     const double wider{costs[7]}, lobe{costs[8]};
     return double{costs[split ? 3 + kind : 6]} + spreadOf(*settings_) * wider +
-           (split ? filteredShare : sampledPart(*settings_)) * lobe;
+           (split ? filteredFraction : sampledPart(*settings_)) * lobe;
 }
 
 std::string EnvironmentCost::because(const DebugMode& mode) const {
@@ -61,7 +61,7 @@ std::string EnvironmentCost::because(const DebugMode& mode) const {
                                             map ? "a map" : "harmonics of order 2"),
                       specular =
                           split ? fmt::format("the split sum, the spread of its maps' samples and {:.3g} %",
-                                              100 * filteredShare)
+                                              100 * filteredFraction)
                                 : fmt::format("{} samples of the lobe, their spread and {:.3g} %,",
                                               settings_->ibl_samples, 100 * sampledPart(*settings_));
     if (!isDiffuse(mode) && !isSpecular(mode) && !isAll(mode)) return {};

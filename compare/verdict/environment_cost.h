@@ -13,11 +13,11 @@ namespace diptych {
 // As a fraction of environment light reflected by the specular lobe. Linear interpolation between widths
 // half an octave apart is off by 6 % if one point emits all light, because its peak is proportional to the
 // squared width. Interpolation between nodes is off by 1.6 %.
-inline constexpr double filteredShare = 0.08;
+inline constexpr double filteredFraction = 0.08;
 // As the same fraction, times the root of the number of samples: the error of sampling at every pixel. 64
 // samples were off by 14 % at one pixel in a thousand under a city's sun, and by 21 % under a lamp of 5
 // degrees, 400 times as bright as the sky.
-inline constexpr double sampledShare = 2;
+inline constexpr double sampledFraction = 2;
 
 class EnvironmentCost {
 public:

@@ -67,8 +67,8 @@ public:
         for (std::size_t code = 0; code < 256; ++code) exact_[code] = exactSrgb(code);
         if (!pair.texels) return;
         for (std::size_t code = 255; code > 0; --code)
-            shares_[code - 1] = shares_[code] =
-                std::max(shares_[code], pair.texels->srgbError(code) / exact_[code]);
+            fractions_[code - 1] = fractions_[code] =
+                std::max(fractions_[code], pair.texels->srgbError(code) / exact_[code]);
     }
 
     Footprints operator()() {
@@ -88,14 +88,14 @@ public:
                 continue;
             }
             result.max = std::max(result.max, bound);
-            const double share = error == 0          ? 0
-                                 : std::isinf(error) ? error  // whatever its bound
-                                                     : error / std::max(bound, 0.0);
-            used.push_back(share);
-            if (!(glass > 0)) others_used.push_back(share);
-            result.beyond += share > 1;
-            if (!(share > largest)) continue;
-            largest = share;
+            const double fraction = error == 0          ? 0
+                                    : std::isinf(error) ? error  // whatever its bound
+                                                        : error / std::max(bound, 0.0);
+            used.push_back(fraction);
+            if (!(glass > 0)) others_used.push_back(fraction);
+            result.beyond += fraction > 1;
+            if (!(fraction > largest)) continue;
+            largest = fraction;
             result.x = static_cast<int>(i) % baseline_.width;
             result.y = static_cast<int>(i) / baseline_.width;
         }
@@ -171,7 +171,7 @@ private:
             case TexelUse::color:
             case TexelUse::scaled_color: {
                 if (mode.error_kind == ErrorKind::relative)
-                    return shares_[1] * metrics::largestFinite(value, mode.width);
+                    return fractions_[1] * metrics::largestFinite(value, mode.width);
                 double max = 0;
                 for (int c = 0; c < mode.width; ++c) max = std::max(max, srgbBound(value[c]));
                 // The specular texture scales F0, and metallic mixes it with albedo.
@@ -194,21 +194,22 @@ private:
     // Permitted error of light of `size` by the device's colours: all of it is multiplied by one of them.
     double colours(std::size_t i, double size) const {
         if (!isLit(mode_.channel) || !pair_.texels) return 0;
-        double share = 0;
+        double fraction = 0;
         for (const DebugMode& mode : debugModes()) {
             if (mode.texels != TexelUse::color) continue;
             const Image* const image = findChannel(pair_.baseline, mode.channel);
             const double value = image ? metrics::largestFinite(image->pixel(i), mode.width) : 0;
-            if (value > 0) share = std::max(share, texels(mode, image->pixel(i)) / value);
+            if (value > 0) fraction = std::max(fraction, texels(mode, image->pixel(i)) / value);
         }
-        return share * size;
+        return fraction * size;
     }
 
     // Bound of a decoded colour; includes one more code for mip levels.
     double srgbBound(double value) const {
         std::size_t code = 0;
         while (code < 254 && exact_[code + 1] <= value) ++code;
-        return value * shares_[code] + exact_[code + 1] - exact_[code] + pair_.texels->srgb_filter.rounding;
+        return value * fractions_[code] + exact_[code + 1] - exact_[code] +
+               pair_.texels->srgb_filter.rounding;
     }
 
     // Largest permitted error of a smooth pixel, in the channel's error kind; negative if it is not smooth.
@@ -307,7 +308,7 @@ private:
     std::array<double, 256> exact_{};
     // Largest relative decoding error over codes from this one on: a factor may have darkened the texel,
     // never brightened it.
-    std::array<double, 256> shares_{};
+    std::array<double, 256> fractions_{};
 };
 
 }  // namespace
@@ -326,7 +327,7 @@ Tolerance footprintTolerance(const Footprints& footprints) {
     return {footprints.max, because, true};
 }
 
-double Footprints::closeShare() const {
+double Footprints::closeFraction() const {
     return pixels() > 0 ? static_cast<double>(smooth) / static_cast<double>(pixels()) : 1;
 }
 

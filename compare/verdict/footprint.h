@@ -33,11 +33,11 @@ struct Footprints {
     std::uint64_t edges = 0;     // pixels not compared, of channels that are no image
 
     std::uint64_t pixels() const { return smooth + detailed + edges; }
-    double closeShare() const;  // fraction of pixels with a bound of their own; 1 without pixels
+    double closeFraction() const;  // fraction of pixels with a bound of their own; 1 without pixels
 };
 
 // If fewer pixels have bounds of their own, FLIP alone decides, and passes even 0.3 of the light.
-inline constexpr double minCloseShare = 0.01;
+inline constexpr double minCloseFraction = 0.01;
 
 // Channels by which footprints() identifies a surface in two images. Both need all of them, whichever are
 // compared.

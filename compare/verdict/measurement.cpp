@@ -103,7 +103,7 @@ bool Measurement::isVector() const {
 }
 
 std::optional<double> Measurement::operator()(const Quantity& quantity) const {
-    if (quantity.metric == FAILING) return shareOf(pixelsAbove(quantity.above));
+    if (quantity.metric == FAILING) return fractionOf(pixelsAbove(quantity.above));
     const auto row = std::ranges::find(rows, quantity.metric, [](const Row& r) { return r.metric.name; });
     return row == rows.end() ? Value() : row->value(*this);
 }
@@ -193,7 +193,7 @@ std::uint64_t Measurement::pixelsAbove(double max) const {
     return count;
 }
 
-double Measurement::shareOf(std::uint64_t pixels) const {
+double Measurement::fractionOf(std::uint64_t pixels) const {
     return pair_.coverage->count ? static_cast<double>(pixels) / static_cast<double>(pair_.coverage->count)
                                  : 0;
 }
@@ -211,7 +211,7 @@ void countPixels(Criterion& criterion, const Measurement& measurement) {
         criterion.pixels = measurement.stats().different;
         criterion.differing = true;
     }
-    criterion.share = measurement.shareOf(criterion.pixels);
+    criterion.fraction = measurement.fractionOf(criterion.pixels);
 }
 
 }  // namespace
@@ -224,7 +224,7 @@ Decision decide(const Rule& rule, const Measurement& measurement) {
         const Condition& broken = decision.level == Level::fail ? rule.fail : *rule.warn;
         if (auto bound = decidingBound(broken, measured)) {
             countPixels(*bound, measurement);
-            decision.reason += shareText(*bound);
+            decision.reason += fractionText(*bound);
         }
     }
     if (boundsMetric(rule.fail, FAILING)) return decision;

@@ -44,7 +44,7 @@ public:
     // does).
     std::uint64_t pixelsAbove(double max) const;
 
-    double shareOf(std::uint64_t pixels) const;  // fraction of the covered pixels, 0 to 1
+    double fractionOf(std::uint64_t pixels) const;  // fraction of the covered pixels, 0 to 1
 
     std::optional<double> granted() const { return pair_.granted; }
     bool isVector() const;  // whether it has 3 components

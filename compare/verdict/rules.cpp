@@ -44,7 +44,7 @@ Condition bound(const std::string& metric, const Json& value) {
 }
 
 // { "above": error, "share": fraction of the pixels }
-Condition share(const Json& value) {
+Condition fraction(const Json& value) {
     if (!value.is_object() || value.size() != 2 || !value.contains("above") || !value.contains("share"))
         fail("failing must be { \"above\": ERROR, \"share\": 0 to 1 }");
     const double above = numberOf(value["above"], "above"), max = numberOf(value["share"], "share");
@@ -74,7 +74,7 @@ private:
     Condition member(const std::string& key, const Json& value) {
         if (key == "all" || key == "any") return group(key, value);
         if (key == "preset") return preset(value);
-        if (key == FAILING) return share(value);
+        if (key == FAILING) return fraction(value);
         if (findMetric(key)) return bound(key, value);
         fail(fmt::format("unknown metric {}; use one of {}, all, any, preset", oneLine(key), metricNames()));
     }
@@ -174,16 +174,16 @@ double usedOf(const Criterion& criterion) {
     return under > 0 ? over / under : std::numeric_limits<double>::infinity();
 }
 
-std::string shareText(const Criterion& criterion) {
+std::string fractionText(const Criterion& criterion) {
     return fmt::format(
         fmt::runtime(criterion.differing ? "; {} of the pixels differ" : ", at {} of the pixels"),
-        percentText(criterion.share));
+        percentText(criterion.fraction));
 }
 
-std::string percentText(double share) {
-    if (share > 0 && share < 1e-4) return "under 0.01 %";
-    if (share < 1 && share > 0.9999) return "over 99.99 %";
-    return fmt::format("{:.3g} %", 100 * share);
+std::string percentText(double fraction) {
+    if (fraction > 0 && fraction < 1e-4) return "under 0.01 %";
+    if (fraction < 1 && fraction > 0.9999) return "over 99.99 %";
+    return fmt::format("{:.3g} %", 100 * fraction);
 }
 
 std::optional<std::string> violation(const Condition& condition, const Measured& measured) {
@@ -203,12 +203,12 @@ std::optional<Criterion> decidingBound(const Condition& condition, const Measure
     if (condition.kind == Condition::Kind::bound) {
         const std::optional<double> value = measured(condition.quantity);
         if (!value) return {};
-        const bool share = condition.quantity.metric == FAILING;
+        const bool fraction = condition.quantity.metric == FAILING;
         return Criterion{.metric = quantityText(condition.quantity),
                          .measured = *value,
                          .limit = condition.limit,
                          .min = isBetterIfMore(condition.quantity.metric),
-                         .above = share ? std::optional(condition.quantity.above) : std::nullopt};
+                         .above = fraction ? std::optional(condition.quantity.above) : std::nullopt};
     }
     std::optional<Criterion> deciding;
     for (const Condition& part : condition.parts)

@@ -46,7 +46,7 @@ struct Criterion {
     // Covered pixels out of tolerance; for a metric of the whole channel (a mean, FLIP), those that differ
     // at all.
     std::uint64_t pixels = 0;
-    double share = 0;        // `pixels` as a fraction of all covered pixels, 0 to 1
+    double fraction = 0;     // `pixels` as a fraction of all covered pixels, 0 to 1
     bool differing = false;  // `pixels` counts pixels that differ
 };
 
@@ -54,10 +54,10 @@ struct Criterion {
 double usedOf(const Criterion& criterion);
 
 // ", at 12.3 % of the pixels"; for a metric of the whole channel "; 12.3 % of the pixels differ".
-std::string shareText(const Criterion& criterion);
+std::string fractionText(const Criterion& criterion);
 
 // "12.3 %"; never "0 %" for a non-zero share, nor "100 %" for less than all.
-std::string percentText(double share);
+std::string percentText(double fraction);
 
 // A bound on one quantity, or several conditions of which all or any must pass.
 struct Condition {

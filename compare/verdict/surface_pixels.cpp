@@ -62,8 +62,9 @@ void count(SurfacePixels::Differing& of, std::size_t i, int width, bool differs,
     of.y = static_cast<int>(i / static_cast<std::size_t>(width));
 }
 
-std::uint64_t mostOf(double share, std::uint64_t edges) {
-    return std::max(fewPixels, static_cast<std::uint64_t>(std::min(1.0, share) * static_cast<double>(edges)));
+std::uint64_t mostOf(double fraction, std::uint64_t edges) {
+    return std::max(fewPixels,
+                    static_cast<std::uint64_t>(std::min(1.0, fraction) * static_cast<double>(edges)));
 }
 
 using Planes = std::array<const Image*, 2>;  // of baseline and test; null where missing

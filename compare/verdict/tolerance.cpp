@@ -183,7 +183,7 @@ Tolerance encodingTolerance(const DebugMode& mode, const FramePair& pair, GBuffe
 // Times the number of steps, as a fraction of the light that haze scatters: the measured error of ray
 // marching. At most 0.03, in builtin:deep through three times the earth's air, with 8, 32 and 128 steps;
 // the error falls faster than that.
-constexpr double marchShare = 0.1;
+constexpr double marchFraction = 0.1;
 
 bool isMarched(const DebugMode& mode, const Settings& path) {
     return path.haze && path.haze_march_steps > 0 &&
@@ -197,7 +197,8 @@ double marchAllowed(const DebugMode& mode, const FramePair& pair, std::size_t pi
     if (!isMarched(mode, path)) return 0;
     const Image* const scattered = findChannel(pair.reference(), Channel::lit_haze);
     const Image& image = scattered ? *scattered : pair.reference().channels.at(mode.channel);
-    return marchShare / path.haze_march_steps * metrics::largestFinite(image.pixel(pixel), image.components);
+    return marchFraction / path.haze_march_steps *
+           metrics::largestFinite(image.pixel(pixel), image.components);
 }
 
 // Tolerance of a path against the reference: the losses of its encoding and of float32.
@@ -252,7 +253,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
     if (isMarched(mode, path.settings))
         result.because +=
             fmt::format("; plus the error of {} steps through haze, {:.2g} % of its light",
-                        path.settings.haze_march_steps, 100 * marchShare / path.settings.haze_march_steps);
+                        path.settings.haze_march_steps, 100 * marchFraction / path.settings.haze_march_steps);
     result.max_pixels = true;
     return result;
 }
@@ -272,19 +273,19 @@ const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
 }
 
 double gpuSlack(const DebugMode& mode, const Image& baseline) {
-    constexpr double share = gpuUlps * 0x1p-23;
+    constexpr double fraction = gpuUlps * 0x1p-23;
     switch (mode.error_kind) {
         case ErrorKind::relative:
-            return share;
+            return fraction;
         case ErrorKind::absolute: {
             float largest = 0;
             for (const float v : baseline.data)
                 if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
-            return share * double{largest};
+            return fraction * double{largest};
         }
         case ErrorKind::angular:
         case ErrorKind::axial:
-            return std::sqrt(3.0) * share * degreesPerRadian;
+            return std::sqrt(3.0) * fraction * degreesPerRadian;
         case ErrorKind::exact:
             return 0;
     }
@@ -376,9 +377,10 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
     return errors;
 }
 
-double nearestRank(std::vector<double> values, double share) {
+double nearestRank(std::vector<double> values, double fraction) {
     if (values.empty()) return 0;
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
+    const auto rank =
+        static_cast<std::ptrdiff_t>(std::ceil(fraction * static_cast<double>(values.size()))) - 1;
     std::ranges::nth_element(values, values.begin() + rank);
     return values.begin()[rank];
 }

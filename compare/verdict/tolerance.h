@@ -79,7 +79,7 @@ std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, con
                                const Image& test);
 
 // The least of the values that at least `share` of them, 0 to 1, do not exceed; 0 without values.
-double nearestRank(std::vector<double> values, double share);
+double nearestRank(std::vector<double> values, double fraction);
 
 // Number of pixels where deferred differs from forward+'s shading of surfaces after the G-buffer's
 // encoding, so that the encoding does not explain the difference. Empty if forward+ has no such image.

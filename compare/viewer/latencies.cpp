@@ -55,10 +55,10 @@ void Latencies::frame(double ms) {
     if (frames_.size() % 30 == 0) percentile_ = percentileOf(0.99);
 }
 
-double Latencies::percentileOf(double share) const {
+double Latencies::percentileOf(double fraction) const {
     if (frames_.empty()) return 0;
     std::vector<double> sorted = frames_;
-    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+    const auto place = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(sorted.size() - 1));
     std::ranges::nth_element(sorted, sorted.begin() + place);
     return sorted[static_cast<std::size_t>(place)];
 }

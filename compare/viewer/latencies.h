@@ -45,7 +45,7 @@ private:
         // Latest request at the press; a key without a request is visible at once.
         std::uint64_t before = 0;
     };
-    double percentileOf(double share) const;
+    double percentileOf(double fraction) const;
 
     std::function<void(const std::string&)> say_;
     Clock::time_point begun_;

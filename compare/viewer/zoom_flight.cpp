@@ -30,12 +30,12 @@ void ZoomFlight::move(double now, CanvasView& view) {
     const double t = std::clamp((now - flight_->begun) / flightTime, 0.0, 1.0), eased = t * t * (3 - 2 * t);
     view.zoom = flight_->from_zoom * std::pow(flight_->to_zoom / flight_->from_zoom, eased);
     // The position moves with the inverse zoom, so that the target approaches the centre evenly.
-    const double share =
+    const double fraction =
         flight_->to_zoom == flight_->from_zoom
             ? eased
             : (1 / flight_->from_zoom - 1 / view.zoom) / (1 / flight_->from_zoom - 1 / flight_->to_zoom);
-    view.centre_x = std::lerp(flight_->from_x, flight_->to_x, share);
-    view.centre_y = std::lerp(flight_->from_y, flight_->to_y, share);
+    view.centre_x = std::lerp(flight_->from_x, flight_->to_x, fraction);
+    view.centre_y = std::lerp(flight_->from_y, flight_->to_y, fraction);
     if (t >= 1) flight_.reset();
 }
 

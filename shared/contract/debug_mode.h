@@ -42,19 +42,19 @@
 #define DEBUG_MODES(X) \
     X(0,  lit, 3, relative, color, any, both, "radiance, W/(sr m^2)", \
           light, 620, exact, 0, 0, none, none, 1) \
-    X(1,  albedo, 3, absolute, color, share, both, "base colour, linear Rec.709", \
+    X(1,  albedo, 3, absolute, color, ratio, both, "base colour, linear Rec.709", \
           surface, 200, root, ALBEDO_BITS, ALBEDO_BITS, none, color, 2) \
     X(2,  normals, 3, angular, vector, unit, both, "shading normal, world", \
           surface, 180, octahedral, STANDARD_NORMAL_BITS, COMPACT_NORMAL_BITS, none, direction, 3) \
-    X(3,  metallic, 1, absolute, scalar, share, both, "metallic, 0 to 1", \
+    X(3,  metallic, 1, absolute, scalar, ratio, both, "metallic, 0 to 1", \
           surface, 210, unorm, STANDARD_METALLIC_BITS, COMPACT_METALLIC_BITS, none, number, 4) \
-    X(4,  roughness, 1, absolute, scalar, share, both, "perceptual roughness, 0 to 1", \
+    X(4,  roughness, 1, absolute, scalar, ratio, both, "perceptual roughness, 0 to 1", \
           surface, 220, unorm, STANDARD_ROUGHNESS_BITS, COMPACT_ROUGHNESS_BITS, none, number, 5) \
     X(5,  emission, 3, relative, color, positive, both, "emitted radiance, W/(sr m^2)", \
           surface, 370, radiance, EMISSION_MANTISSA_BITS, EMISSION_MANTISSA_BITS, emission, color, 6) \
-    X(6,  occlusion, 1, absolute, scalar, share, both, "ambient occlusion, 0 to 1", \
+    X(6,  occlusion, 1, absolute, scalar, ratio, both, "ambient occlusion, 0 to 1", \
           surface, 360, unorm, OCCLUSION_BITS, OCCLUSION_BITS, none, number, 0) \
-    X(7,  specular, 3, absolute, color, share, both, "F0, specular colour at normal incidence", \
+    X(7,  specular, 3, absolute, color, ratio, both, "F0, specular colour at normal incidence", \
           surface, 250, exact, 0, 0, none, scaled_color, 0) \
     X(8,  material_id, 1, exact, id, any, both, "material index; -1: background", \
           id, 100, exact, 0, 0, none, none, 7) \
@@ -70,12 +70,12 @@
           none, none, 9) \
     X(20, light_count, 1, absolute, scalar, positive, paths_only, "number of lights evaluated at the pixel", \
           list, 450, exact, 0, 0, none, none, 0) \
-    X(21, list_overflow, 1, exact, scalar, share, paths_only, "1 where the pixel's light list overflowed", \
+    X(21, list_overflow, 1, exact, scalar, ratio, paths_only, "1 where the pixel's light list overflowed", \
           list, 440, exact, 0, 0, none, none, 0) \
     X(22, shaded_samples, 1, absolute, scalar, positive, deferred_only, \
           "number of sample groups that deferred lighting shades at the pixel", \
           list, 460, exact, 0, 0, none, none, 0) \
-    X(30, shadow_visibility, 1, absolute, scalar, share, both, \
+    X(30, shadow_visibility, 1, absolute, scalar, ratio, both, \
           "visible fraction of the shadow-casting sun; 1 without one", \
           visibility, 400, exact, 0, 0, none, none, 0) \
     X(31, cascade, 1, exact, id, any, paths_only, \
@@ -84,7 +84,7 @@
     X(32, page_residency, 1, exact, id, any, paths_only, \
           "resident minus requested clipmap level; 0: page resident; -1: no clipmap", \
           map, 420, exact, 0, 0, none, none, 0) \
-    X(33, local_visibility, 1, absolute, scalar, share, both, \
+    X(33, local_visibility, 1, absolute, scalar, ratio, both, \
           "visible fraction of shadow-casting point and spot lights, weighted by irradiance; 1 without any", \
           visibility, 430, exact, 0, 0, none, none, 0) \
     X(40, lit_diffuse, 3, relative, color, any, both, \
@@ -99,7 +99,7 @@
     X(43, lit_haze, 3, relative, color, any, both, \
           "radiance scattered by haze in front of the surface, W/(sr m^2)", \
           haze, 610, exact, 0, 0, none, none, 0) \
-    X(44, transmittance, 3, absolute, color, share, both, \
+    X(44, transmittance, 3, absolute, color, ratio, both, \
           "transmittance of haze between surface and camera, 0 to 1", \
           haze, 600, exact, 0, 0, none, none, 0) \
     X(45, lit_environment, 3, relative, color, any, both, \
@@ -115,7 +115,7 @@
           "radiance through the nearest surface with transmission; elsewhere diffuse transmission's " \
           "contribution to lit_diffuse and lit_ambient, W/(sr m^2)", \
           light, 560, exact, 0, 0, transmitted, none, 0) \
-    X(50, dielectric_f90, 1, absolute, scalar, share, both, "F90 of the dielectric layer, 0 to 1", \
+    X(50, dielectric_f90, 1, absolute, scalar, ratio, both, "F90 of the dielectric layer, 0 to 1", \
           surface, 240, unorm, SPECULAR_F90_BITS, SPECULAR_F90_BITS, dielectric, number, 0) \
     X(51, lightmap, 3, relative, color, positive, both, "lightmap irradiance / pi, W/(sr m^2)", \
           surface, 380, radiance, EMISSION_MANTISSA_BITS, EMISSION_MANTISSA_BITS, lightmap, color, 0) \
@@ -128,30 +128,30 @@
     X(54, tangent_normal, 3, absolute, vector, any, forward_only, \
           "normal map's normal, tangent space, unit; 0 without a normal map", \
           surface, 170, exact, 0, 0, none, direction, 0) \
-    X(55, dielectric_f0, 3, absolute, color, share, both, "F0 of the dielectric layer", \
+    X(55, dielectric_f0, 3, absolute, color, ratio, both, "F0 of the dielectric layer", \
           surface, 230, root, SPECULAR_BITS, SPECULAR_BITS, dielectric, scaled_color, 0) \
-    X(56, lightmapped, 1, exact, scalar, share, both, \
+    X(56, lightmapped, 1, exact, scalar, ratio, both, \
           "1 where the material has a lightmap, which replaces the environment's diffuse light", \
           surface, 390, exact, 0, 0, none, none, 0) \
-    X(60, clearcoat, 1, absolute, scalar, share, both, "weight of the clear coat, 0 to 1", \
+    X(60, clearcoat, 1, absolute, scalar, ratio, both, "weight of the clear coat, 0 to 1", \
           surface, 330, unorm, CLEARCOAT_BITS, CLEARCOAT_BITS, clearcoat, number, 0) \
-    X(61, clearcoat_roughness, 1, absolute, scalar, share, both, \
+    X(61, clearcoat_roughness, 1, absolute, scalar, ratio, both, \
           "perceptual roughness of the clear coat, 0 to 1; 0 without one", \
           surface, 340, unorm, CLEARCOAT_ROUGHNESS_BITS, CLEARCOAT_ROUGHNESS_BITS, clearcoat, number, 11) \
     X(62, clearcoat_normal, 3, angular, vector, unit_or_zero, both, \
           "normal of the clear coat, world; 0 without one", \
           surface, 350, octahedral, CLEARCOAT_NORMAL_BITS, CLEARCOAT_NORMAL_BITS, clearcoat, direction, 10) \
-    X(63, anisotropy, 1, absolute, scalar, share, both, "strength of anisotropy, 0 to 1", \
+    X(63, anisotropy, 1, absolute, scalar, ratio, both, "strength of anisotropy, 0 to 1", \
           surface, 260, unorm, ANISOTROPY_BITS, ANISOTROPY_BITS, anisotropy, number, 0) \
     X(64, anisotropy_direction, 3, axial, vector, unit_or_zero, both, \
           "direction along which highlights stretch, world, either sign; 0 where isotropic", \
           surface, 270, line, ANISOTROPY_ANGLE_BITS, ANISOTROPY_ANGLE_BITS, anisotropy, line, 0) \
-    X(65, sheen_color, 3, absolute, color, share, both, "colour of the sheen, linear Rec.709", \
+    X(65, sheen_color, 3, absolute, color, ratio, both, "colour of the sheen, linear Rec.709", \
           surface, 310, root, SHEEN_COLOR_BITS, SHEEN_COLOR_BITS, sheen, color, 12) \
-    X(66, sheen_roughness, 1, absolute, scalar, share, both, \
+    X(66, sheen_roughness, 1, absolute, scalar, ratio, both, \
           "perceptual roughness of the sheen, 0 to 1; 0 without one", \
           surface, 320, unorm, SHEEN_ROUGHNESS_BITS, SHEEN_ROUGHNESS_BITS, sheen, number, 13) \
-    X(67, iridescence, 1, absolute, scalar, share, both, "weight of the thin film, 0 to 1", \
+    X(67, iridescence, 1, absolute, scalar, ratio, both, "weight of the thin film, 0 to 1", \
           surface, 280, unorm, IRIDESCENCE_BITS, IRIDESCENCE_BITS, iridescence, number, 14) \
     X(68, iridescence_ior, 1, absolute, scalar, positive, both, \
           "index of refraction of the thin film; 0 without one", \
@@ -160,12 +160,12 @@
           "thickness of the thin film, nm; 0 without one", \
           surface, 300, half, IRIDESCENCE_THICKNESS_BITS, IRIDESCENCE_THICKNESS_BITS, \
           iridescence, thickness, 15) \
-    X(70, transmission, 1, absolute, scalar, share, both, \
+    X(70, transmission, 1, absolute, scalar, ratio, both, \
           "fraction of light that the nearest surface with transmission transmits; 0 without one", \
           surface, 392, exact, 0, 0, transmission, number, 0) \
     X(71, transmission_thickness, 1, relative, scalar, positive, both, "its thickness, m; 0: thin wall", \
           surface, 394, exact, 0, 0, transmission, length, 0) \
-    X(72, attenuation_color, 3, absolute, color, share, both, \
+    X(72, attenuation_color, 3, absolute, color, ratio, both, \
           "its colour at attenuation_distance, linear Rec.709", \
           surface, 395, exact, 0, 0, transmission, none, 0) \
     X(73, attenuation_distance, 1, relative, scalar, positive, both, \
@@ -173,10 +173,10 @@
           surface, 396, exact, 0, 0, transmission, none, 0) \
     X(74, dispersion, 1, absolute, scalar, positive, both, "its dispersion, 20 / Abbe number", \
           surface, 398, exact, 0, 0, transmission, none, 0) \
-    X(75, diffuse_transmission, 1, absolute, scalar, share, both, "weight of diffuse transmission, 0 to 1", \
+    X(75, diffuse_transmission, 1, absolute, scalar, ratio, both, "weight of diffuse transmission, 0 to 1", \
           surface, 302, unorm, DIFFUSE_TRANSMISSION_BITS, DIFFUSE_TRANSMISSION_BITS, \
           diffuse_transmission, number, 0) \
-    X(76, diffuse_transmission_color, 3, absolute, color, share, both, \
+    X(76, diffuse_transmission_color, 3, absolute, color, ratio, both, \
           "colour of diffuse transmission, with its volume's absorption, linear Rec.709; 0 without it", \
           surface, 304, root, DIFFUSE_TRANSMISSION_COLOR_BITS, DIFFUSE_TRANSMISSION_COLOR_BITS, \
           diffuse_transmission, color, 0)

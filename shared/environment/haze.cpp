@@ -34,11 +34,11 @@ double seenFarthest(const glm::dvec3& extinction) {
     return std::max(std::min({extinction.x, extinction.y, extinction.z}), largest / 8);
 }
 // 0 without extinction.
-glm::dvec3 shareOf(const glm::dvec3& scattered, const glm::dvec3& extinction) {
-    glm::dvec3 share(0);
+glm::dvec3 fractionOf(const glm::dvec3& scattered, const glm::dvec3& extinction) {
+    glm::dvec3 fraction(0);
     for (int c = 0; c < 3; ++c)
-        if (extinction[c] > 0) share[c] = scattered[c] / extinction[c];
-    return share;
+        if (extinction[c] > 0) fraction[c] = scattered[c] / extinction[c];
+    return fraction;
 }
 
 }  // namespace
@@ -70,21 +70,22 @@ HazeNumbers hazeNumbers(const Settings& settings, const Light* sun, const glm::d
         if (!marched) {
             const glm::dvec3 above = extinction * (height * std::exp(-eyeHeight / height) / sunUp);
             const glm::dvec3 sunlight = glm::exp(-above);
-            rayleighSource *= sunlight * shareOf(rayleigh, extinction);
-            mieSource *= sunlight * shareOf(mie, extinction);
+            rayleighSource *= sunlight * fractionOf(rayleigh, extinction);
+            mieSource *= sunlight * fractionOf(mie, extinction);
         }
     }
     if (ambient != glm::dvec3(0)) numbers.feature |= gpu::HAZE_AMBIENT;
-    numbers.haze = {.extinction = glm::vec3(marched ? glm::dvec3(seenFarthest(extinction)) : extinction),
-                    .inverse_height = static_cast<float>(1 / height),
-                    .to_sun = glm::vec3(toSun),
-                    .camera_height = static_cast<float>(eyeHeight),
-                    .rayleigh = glm::vec3(rayleighSource),
-                    .phase_0 = static_cast<float>((1 - g) * (1 - g)),
-                    .mie = glm::vec3(mieSource),
-                    .phase_1 = static_cast<float>(g),
-                    .ambient = glm::vec3(marched ? ambient : ambient * shareOf(rayleigh + mie, extinction)),
-                    .steps = static_cast<float>(settings.haze_march_steps)};
+    numbers.haze = {
+        .extinction = glm::vec3(marched ? glm::dvec3(seenFarthest(extinction)) : extinction),
+        .inverse_height = static_cast<float>(1 / height),
+        .to_sun = glm::vec3(toSun),
+        .camera_height = static_cast<float>(eyeHeight),
+        .rayleigh = glm::vec3(rayleighSource),
+        .phase_0 = static_cast<float>((1 - g) * (1 - g)),
+        .mie = glm::vec3(mieSource),
+        .phase_1 = static_cast<float>(g),
+        .ambient = glm::vec3(marched ? ambient : ambient * fractionOf(rayleigh + mie, extinction)),
+        .steps = static_cast<float>(settings.haze_march_steps)};
     if (marched)
         numbers.march = {.rayleigh = glm::vec3(rayleigh),
                          .rayleigh_inverse = static_cast<float>(1 / rayleighHeight),

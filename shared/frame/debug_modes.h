@@ -21,7 +21,7 @@ constexpr bool isAngle(ErrorKind errorKind) {  // in degrees
 }
 enum class ChannelKind { color, vector, scalar, id };
 // Valid range of the values: unit vectors, these or 0, 0 to 1, 0 or more, or any.
-enum class Domain { unit, unit_or_zero, share, positive, any };
+enum class Domain { unit, unit_or_zero, ratio, positive, any };
 enum class MadeBy { both, forward_only, deferred_only, paths_only };
 // Columns of DEBUG_MODES, which explains their values.
 enum class ChannelStage { id, place, facet, surface, list, map, visibility, light, unshadowed, haze };

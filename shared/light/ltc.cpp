@@ -37,13 +37,13 @@ LtcTable readTable() {
 }  // namespace
 
 LtcLobe LtcCell::lobe(double f0, double f90) const {
-    const auto evenShare = [&](double from, double to) {
+    const auto evenFraction = [&](double from, double to) {
         const double all = reflected(from, std::max(to, from));
         return all > 0 ? from * double{magnitude} / all : 0;
     };
-    const double min = evenShare(double{gpu::LTC_LAYER_F0}, 1);
+    const double min = evenFraction(double{gpu::LTC_LAYER_F0}, 1);
     const auto t =
-        static_cast<float>(std::clamp((evenShare(f0, f90) - min) / std::max(1 - min, 1e-6), 0.0, 1.0));
+        static_cast<float>(std::clamp((evenFraction(f0, f90) - min) / std::max(1 - min, 1e-6), 0.0, 1.0));
     return {.in_plane = std::lerp(layer.in_plane, even.in_plane, t),
             .across = std::lerp(layer.across, even.across, t),
             .unsheared = std::lerp(layer.unsheared, even.unsheared, t),

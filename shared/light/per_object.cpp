@@ -44,16 +44,16 @@ ObjectPlace widened(ObjectPlace object) {
 // Fractions of lights in a group with capacity `room` for `members`, or in a better group; `taken` are
 // those in better groups. Moves the brightest members to the front, ties in scene order (`sources`).
 // Brightness is compared in float32, so that double rounding ranks nothing.
-std::vector<double> sharesIn(std::vector<std::size_t>& members, std::size_t room,
-                             std::span<const double> brightness, std::span<const std::size_t> sources,
-                             std::span<const double> taken) {
+std::vector<double> fractionsIn(std::vector<std::size_t>& members, std::size_t room,
+                                std::span<const double> brightness, std::span<const std::size_t> sources,
+                                std::span<const double> taken) {
     if (members.size() <= room) return std::vector<double>(brightness.size(), 1.0);
     const auto key = [&](std::size_t i) { return std::pair(-static_cast<float>(brightness[i]), sources[i]); };
     std::ranges::nth_element(members, members.begin() + static_cast<std::ptrdiff_t>(room), {}, key);
     const double threshold = brightness[members[room]];  // of the first light beyond the capacity
-    std::vector<double> shares;
+    std::vector<double> fractions;
     for (std::size_t i = 0; i < brightness.size(); ++i)
-        shares.push_back(std::max(taken[i], fade(brightness[i], threshold)));
+        fractions.push_back(std::max(taken[i], fade(brightness[i], threshold)));
     // Lights of exactly the threshold's brightness share the remaining capacity.
     double left = static_cast<double>(room);
     std::vector<std::size_t> equal;
@@ -61,15 +61,15 @@ std::vector<double> sharesIn(std::vector<std::size_t>& members, std::size_t room
         if (static_cast<float>(brightness[i]) == static_cast<float>(threshold))
             equal.push_back(i);
         else
-            left -= shares[i] - taken[i];
-    if (equal.size() < 2) return shares;
+            left -= fractions[i] - taken[i];
+    if (equal.size() < 2) return fractions;
     std::ranges::sort(equal, {}, [&](std::size_t i) { return sources[i]; });
     for (const std::size_t i : equal) {
         const double more = std::clamp(left, 0.0, 1 - taken[i]);
-        shares[i] = taken[i] + more;
+        fractions[i] = taken[i] + more;
         left -= more;
     }
-    return shares;
+    return fractions;
 }
 
 }  // namespace
@@ -103,8 +103,8 @@ double fade(double brightness, double threshold) {
     return x * x * (3 - 2 * x);
 }
 
-std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace& object,
-                                     std::uint32_t pixels) {
+std::vector<LightFractions> lightFractions(const GpuLights& lights, const ObjectPlace& object,
+                                           std::uint32_t pixels) {
     const std::size_t count = lights.count();
     std::vector<double> brightness(count);
     for (std::size_t i = 0; i < count; ++i) brightness[i] = brightnessAt(lights, i, object);
@@ -115,7 +115,7 @@ std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace&
         if (lights.importance[i] == Importance::not_important) others.push_back(i);
     }
     const std::vector<double> none(count);
-    std::vector<double> pixel = sharesIn(ranked, pixels, brightness, lights.sources, none);
+    std::vector<double> pixel = fractionsIn(ranked, pixels, brightness, lights.sources, none);
     for (std::size_t i = 0; i < count; ++i) {
         const bool always = lights.importance[i] == Importance::important || i == lights.base;
         if (always) pixel[i] = 1;
@@ -124,16 +124,16 @@ std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace&
     // Lights that are not among the per-pixel ones.
     if (pixels < ranked.size())
         others.insert(others.end(), ranked.begin() + static_cast<std::ptrdiff_t>(pixels), ranked.end());
-    const std::vector<double> either = sharesIn(others, vertexLights, brightness, lights.sources, pixel);
+    const std::vector<double> either = fractionsIn(others, vertexLights, brightness, lights.sources, pixel);
 
-    std::vector<LightShares> shares(count);
+    std::vector<LightFractions> fractions(count);
     for (std::size_t i = 0; i < count; ++i) {
         if (!(brightness[i] > 0)) continue;
         // Vertices do not support area lights.
         const double vertex = lights.shapeOf(i) ? 0 : either[i] - pixel[i];
-        shares[i] = {pixel[i], vertex, 1 - (pixel[i] + vertex)};
+        fractions[i] = {pixel[i], vertex, 1 - (pixel[i] + vertex)};
     }
-    return shares;
+    return fractions;
 }
 
 void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dvec3& l, double directed) {
@@ -151,9 +151,9 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dv
 }
 
 void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size_t i,
-                  const ObjectPlace& object, double share) {
+                  const ObjectPlace& object, double fraction) {
     const gpu::Light& light = lights.lights[i];
-    const glm::dvec3 intensity = glm::dvec3(light.intensity) * share;
+    const glm::dvec3 intensity = glm::dvec3(light.intensity) * fraction;
     if (i < lights.directional) return addHarmonics(sum, intensity, glm::dvec3(light.position));
     const glm::dvec3 to_light = glm::dvec3(light.position) - object.centre;
     const double distance = glm::length(to_light), radius = std::max(glm::length(object.half), 1e-10);
@@ -176,26 +176,27 @@ ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const Objec
     std::vector<Own> all(objects.size());
     tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t o) {
         Own& own = all[o];
-        const std::vector<LightShares> shares = lightShares(lights, objects[o], pixels);
+        const std::vector<LightFractions> fractions = lightFractions(lights, objects[o], pixels);
         const std::size_t kinds[] = {0, lights.directional, lights.firstSpot(), lights.firstArea(),
                                      lights.count()};
-        const auto list = [&](double LightShares::*share, std::size_t kind) {
+        const auto list = [&](double LightFractions::*fraction, std::size_t kind) {
             for (std::size_t i = kinds[kind]; i < kinds[kind + 1]; ++i)
-                if (shares[i].*share > 0)
-                    own.entries.push_back({static_cast<gpu::uint>(i), static_cast<float>(shares[i].*share)});
+                if (fractions[i].*fraction > 0)
+                    own.entries.push_back(
+                        {static_cast<gpu::uint>(i), static_cast<float>(fractions[i].*fraction)});
             return static_cast<gpu::uint>(own.entries.size());
         };
-        own.head.local_begin = list(&LightShares::pixel, 0);
-        own.head.point_end = list(&LightShares::pixel, 1);
-        own.head.spot_end = list(&LightShares::pixel, 2);
-        own.head.area_end = list(&LightShares::pixel, 3);
-        own.head.vertex_directional_end = list(&LightShares::vertex, 0);
-        own.head.vertex_point_end = list(&LightShares::vertex, 1);
-        own.head.vertex_end = list(&LightShares::vertex, 2);
+        own.head.local_begin = list(&LightFractions::pixel, 0);
+        own.head.point_end = list(&LightFractions::pixel, 1);
+        own.head.spot_end = list(&LightFractions::pixel, 2);
+        own.head.area_end = list(&LightFractions::pixel, 3);
+        own.head.vertex_directional_end = list(&LightFractions::vertex, 0);
+        own.head.vertex_point_end = list(&LightFractions::vertex, 1);
+        own.head.vertex_end = list(&LightFractions::vertex, 2);
         if (!objects[o].harmonics) return;
-        for (std::size_t i = 0; i < shares.size(); ++i)
-            if (shares[i].harmonics > 0)
-                addHarmonics(own.head.irradiance, lights, i, objects[o], shares[i].harmonics);
+        for (std::size_t i = 0; i < fractions.size(); ++i)
+            if (fractions[i].harmonics > 0)
+                addHarmonics(own.head.irradiance, lights, i, objects[o], fractions[i].harmonics);
     });
 
     ObjectLightLists result;

@@ -33,15 +33,15 @@ inline constexpr double fadeRange = 4;
 
 // How a light at an object is split; the sum is 1 if the light reaches the object. Area lights have no
 // vertex fraction: the harmonics include it, as a patch at the light's centre.
-struct LightShares {
+struct LightFractions {
     double pixel = 0, vertex = 0, harmonics = 0;
 };
 
 // `pixels`: lights per pixel. Marks (Light::importance): important lights are shaded per pixel in their
 // range, in addition to `pixels` others; unimportant ones never are. GpuLights::base is always shaded per
 // pixel. Lights of exactly the threshold's brightness fill the remaining capacity in scene order.
-std::vector<LightShares> lightShares(const GpuLights& lights, const ObjectPlace& object,
-                                     std::uint32_t pixels);
+std::vector<LightFractions> lightFractions(const GpuLights& lights, const ObjectPlace& object,
+                                           std::uint32_t pixels);
 
 // Adds a light of irradiance `e` from the unit direction `to_light`. The bands of the clamped cosine are
 // 1/4, n.l / 2 and 5/32 (3 (n.l)^2 - 1). `directed` in [0, 1], 0 for uniform light: its powers scale the
@@ -52,7 +52,7 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dv
 // Adds the irradiance of light `i` at an object's centre, softened by the box's radius: inside it the
 // light becomes more uniform.
 void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size_t i,
-                  const ObjectPlace& object, double share);
+                  const ObjectPlace& object, double fraction);
 
 struct ObjectLightLists {
     std::vector<gpu::ObjectLights> objects;  // same order as the input

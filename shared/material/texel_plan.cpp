@@ -39,16 +39,16 @@ SlotTexels slotTexels(const Material& material, const TextureQueries& ask) {
             texels[slot] = ask.one_color(slotOf(material, slot).texture, readLike(material, slot))
                                ? gpu::TEXEL_CONSTANT
                                : gpu::TEXEL_OWN;
-    const auto share = [&](gpu::uint slot, gpu::uint sampled) {
+    const auto fraction = [&](gpu::uint slot, gpu::uint sampled) {
         const TextureSlot &a = slotOf(material, slot), &b = slotOf(material, sampled);
         if (texels[slot] == gpu::TEXEL_OWN && texels[sampled] == gpu::TEXEL_OWN && sameCoordinates(a, b) &&
             ask.same_image(a.texture, b.texture))
             texels[slot] = gpu::TEXEL_SHARED;
     };
-    share(gpu::SLOT_occlusion, gpu::SLOT_metallic_roughness);
-    share(gpu::SLOT_emissive, gpu::SLOT_base_color);
-    share(gpu::SLOT_sheen_roughness, gpu::SLOT_sheen_color);
-    share(gpu::SLOT_diffuse_transmission, gpu::SLOT_diffuse_transmission_color);
+    fraction(gpu::SLOT_occlusion, gpu::SLOT_metallic_roughness);
+    fraction(gpu::SLOT_emissive, gpu::SLOT_base_color);
+    fraction(gpu::SLOT_sheen_roughness, gpu::SLOT_sheen_color);
+    fraction(gpu::SLOT_diffuse_transmission, gpu::SLOT_diffuse_transmission_color);
     const auto sampled = [&](gpu::uint slot) { return texels[slot] == gpu::TEXEL_OWN; };
     if (sampled(gpu::SLOT_metallic_roughness) && sampled(gpu::SLOT_normal) && sampled(gpu::SLOT_base_color) &&
         texels[gpu::SLOT_occlusion] != gpu::TEXEL_SHARED && ask.packed(material))

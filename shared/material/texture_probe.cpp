@@ -258,7 +258,7 @@ TextureSampling probeTextures(Device& device, TexturePrecision precision) {
 std::vector<DeviceProperty> textureProperties(const Device& device, const TextureSampling& sampling,
                                               const TextureSampling& exact) {
     // Vulkan: weights have at least subTexelPrecisionBits, and sRGB keeps 8 bits, so half a code.
-    const double share = std::exp2(-static_cast<double>(device.limits().subTexelPrecisionBits));
+    const double fraction = std::exp2(-static_cast<double>(device.limits().subTexelPrecisionBits));
     const auto decode = [](const char* what, const TextureSampling& s) {
         double max = 0, halfCode = 0;
         std::size_t worst = 0;
@@ -278,7 +278,7 @@ std::vector<DeviceProperty> textureProperties(const Device& device, const Textur
             what, bound.rounding < 0.1 / 255, false,
             fmt::format("error up to {:.2g} of a code plus {:.2g} % of the texels' difference; "
                         "Vulkan allows {:.2g} %",
-                        bound.rounding * 255, 100 * bound.weight, 100 * share)};
+                        bound.rounding * 255, 100 * bound.weight, 100 * fraction)};
     };
     return {decode("decodes sRGB to 0.1 %", sampling),
             filter("filters 8-bit texels without rounding", sampling.linear_filter),

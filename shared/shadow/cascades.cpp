@@ -15,10 +15,10 @@ namespace diptych {
 namespace {
 
 // Weight of the logarithmic split in the practical split.
-constexpr double logarithmicShare = 0.75;
+constexpr double logarithmicFraction = 0.75;
 // The first cascade begins at the near plane, but not nearer than this fraction of the shadow distance.
 // Otherwise a near plane of 1 mm would spend all but the last cascade on the first metre.
-constexpr double nearestShare = 1.0 / 500;
+constexpr double nearestFraction = 1.0 / 500;
 
 struct Sphere {
     glm::dvec3 centre;
@@ -81,9 +81,11 @@ glm::dmat4 Cascades::clipFromWorld(const CascadeArea& area, int size, const glm:
 std::vector<double> splitDepths(double near, double far, int count) {
     std::vector<double> ends;
     for (int i = 1; i <= count; ++i) {
-        const double share = static_cast<double>(i) / count;
-        const double ratios = near * std::pow(far / near, share), differences = near + (far - near) * share;
-        ends.push_back(i == count ? far : logarithmicShare * ratios + (1 - logarithmicShare) * differences);
+        const double fraction = static_cast<double>(i) / count;
+        const double ratios = near * std::pow(far / near, fraction),
+                     differences = near + (far - near) * fraction;
+        ends.push_back(i == count ? far
+                                  : logarithmicFraction * ratios + (1 - logarithmicFraction) * differences);
     }
     return ends;
 }
@@ -111,7 +113,7 @@ Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& t
     } else {
         near = std::min(near, far / 2);
     }
-    near = std::max(near, far * nearestShare);
+    near = std::max(near, far * nearestFraction);
     const double inner = std::max(request.size - 2 * marginOf(request), 1.0);
     const double sceneSide = std::max(max.x - min.x, max.y - min.y) + 2 * room;
     for (const double end : splitDepths(near, far, request.count)) {

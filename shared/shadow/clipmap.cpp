@@ -15,7 +15,7 @@ namespace {
 
 // Lower bound of a level's texels relative to the scene: float32 rounding of a vertex's position in a
 // page, and of a depth, then stays below the bias of half a texel.
-constexpr double finestShare = 2 * double{std::numeric_limits<float>::epsilon()};
+constexpr double finestFraction = 2 * double{std::numeric_limits<float>::epsilon()};
 
 // Border around a page, texels: the receiver's offset, the filter's radius, and one for rounding at page
 // boundaries.
@@ -109,7 +109,7 @@ Clipmap fitClipmap(const View& view, const Bounds& bounds, const glm::dvec3& to_
     }
     const int across = (request.size + request.page - 1) / request.page;
     clipmap.width = across + 1;
-    const double finest = std::max(2 * nearest / across, finestShare * scene * request.page);
+    const double finest = std::max(2 * nearest / across, finestFraction * scene * request.page);
     const double farthest = farthestOf(bounds, clipmap.centre);
     const glm::dvec2 centre(grid.space.from(clipmap.centre));
     for (int exponent = static_cast<int>(std::ceil(std::log2(finest)));; ++exponent) {

@@ -66,7 +66,7 @@ class AllDirections {
 public:
     explicit AllDirections(const Environment& environment)
         : light_(environment, 1), width_(light_.width()), height_(light_.height()) {
-        constexpr std::array<double, 3> share{0.125, 0.75, 0.125};
+        constexpr std::array<double, 3> fraction{0.125, 0.75, 0.125};
         for (int y = 0; y < height_; ++y)
             for (int x = 0; x < width_; ++x) {
                 glm::dvec3 mean(0);  // of the bilinear interpolation over the pixel
@@ -74,7 +74,7 @@ public:
                     for (std::size_t i = 0; i < 3; ++i)
                         mean += light_.radiance(light_.directionOf(x - 0.5 + static_cast<double>(i),
                                                                    y - 0.5 + static_cast<double>(j))) *
-                                (share[i] * share[j]);
+                                (fraction[i] * fraction[j]);
                 pixels_.push_back({light_.directionOf(x + 0.5, y + 0.5), mean});
             }
     }

@@ -41,23 +41,23 @@ Scene slope(double turned) {
 }
 
 // The fraction of each pixel that the mask covers, equal in both paths. The square fills the image.
-std::vector<double> sharesOf(const Scene& scene, int pixels, bool on) {
+std::vector<double> fractionsOf(const Scene& scene, int pixels, bool on) {
     Renderer renderer(device(), scene, pipelines());
-    std::vector<std::vector<double>> shares;
+    std::vector<std::vector<double>> fractions;
     for (const Path path : drawn_paths) {
         const Frame frame = drawnBy(path, renderer, covered({pixels, pixels}, on), {Channel::lit});
         const Image& image = frame.channels.at(Channel::lit);
-        std::vector<double>& of = shares.emplace_back();
+        std::vector<double>& of = fractions.emplace_back();
         for (std::size_t i = 0; i < image.pixels(); ++i) of.push_back(double{image.pixel(i)[0]});
         EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
     }
-    EXPECT_EQ(shares[0], shares[1]);
-    return shares[0];
+    EXPECT_EQ(fractions[0], fractions[1]);
+    return fractions[0];
 }
 
 // The fraction of pixel x, y where the ramp reaches the cutoff, by 64 x 64 points; `pixels` is the image's
 // size.
-double exactShare(double turned, int pixels, int x, int y) {
+double exactFraction(double turned, int pixels, int x, int y) {
     constexpr int points = 64;
     int inside = 0;
     for (int i = 0; i < points; ++i)
@@ -72,23 +72,23 @@ double exactShare(double turned, int pixels, int x, int y) {
 // The sample count nearest to the fraction of the pixel where alpha reaches the cutoff. Along an axis the
 // error is at most 1/8 pixel; in other directions rounding at pixel corners adds up to 1/8. Averaged along
 // an edge it is far smaller.
-TEST(AlphaCoverage, IsTheShareOfThePixel) {
+TEST(AlphaCoverage, IsTheFractionOfThePixel) {
     constexpr int pixels = 24;
     for (const double degrees : {0.0, 90.0, 45.0, 20.0, 67.0, 200.0}) {
         const double turned = degrees * std::numbers::pi / 180;
-        const std::vector<double> shares = sharesOf(slope(turned), pixels, true);
+        const std::vector<double> fractions = fractionsOf(slope(turned), pixels, true);
         const bool axis = std::fmod(degrees, 90.0) == 0;
         double sum = 0, exact_sum = 0, parts = 0;
         for (int y = 0; y < pixels; ++y)
             for (int x = 0; x < pixels; ++x) {
                 // On the diagonal, each of the square's triangles uses the alpha of its own part.
                 if (x == pixels - 1 - y) continue;
-                const double share = shares[static_cast<std::size_t>(y * pixels + x)],
-                             exact = exactShare(turned, pixels, x, y);
-                EXPECT_NEAR(share, exact, (axis ? 0.125 : 0.25) + 1.0 / 64)
+                const double fraction = fractions[static_cast<std::size_t>(y * pixels + x)],
+                             exact = exactFraction(turned, pixels, x, y);
+                EXPECT_NEAR(fraction, exact, (axis ? 0.125 : 0.25) + 1.0 / 64)
                     << degrees << ": " << x << "," << y;
-                EXPECT_NEAR(share * 4, std::round(share * 4), 1e-6);
-                sum += share;
+                EXPECT_NEAR(fraction * 4, std::round(fraction * 4), 1e-6);
+                sum += fraction;
                 exact_sum += exact;
                 parts += exact > 0 && exact < 1;
             }
@@ -101,13 +101,13 @@ TEST(AlphaCoverage, IsTheShareOfThePixel) {
 TEST(AlphaCoverage, WithoutItMasksCutWholePixels) {
     constexpr int pixels = 24;
     const double turned = 20 * std::numbers::pi / 180;
-    const std::vector<double> shares = sharesOf(slope(turned), pixels, false);
+    const std::vector<double> fractions = fractionsOf(slope(turned), pixels, false);
     int beyond = 0;
     for (int y = 0; y < pixels; ++y)
         for (int x = 0; x < pixels; ++x) {
-            const double share = shares[static_cast<std::size_t>(y * pixels + x)];
-            EXPECT_TRUE(share == 0 || share == 1 || x == y || x == pixels - 1 - y) << x << "," << y;
-            beyond += std::abs(share - exactShare(turned, pixels, x, y)) > 0.3;
+            const double fraction = fractions[static_cast<std::size_t>(y * pixels + x)];
+            EXPECT_TRUE(fraction == 0 || fraction == 1 || x == y || x == pixels - 1 - y) << x << "," << y;
+            beyond += std::abs(fraction - exactFraction(turned, pixels, x, y)) > 0.3;
         }
     EXPECT_GT(beyond, 5);
 }
@@ -145,7 +145,8 @@ TEST(AlphaCoverage, OfOneAlphaIsAllOrNothing) {
         Scene scene = slope(0);
         scene.meshes[0].primitives[0].colors.clear();
         scene.materials[0].base_color = {1, 1, 1, alpha};
-        for (const double share : sharesOf(scene, 8, true)) EXPECT_EQ(share, alpha < cutoff ? 0 : 1) << alpha;
+        for (const double fraction : fractionsOf(scene, 8, true))
+            EXPECT_EQ(fraction, alpha < cutoff ? 0 : 1) << alpha;
     }
 }
 

@@ -204,11 +204,11 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
                             for (std::size_t i = 0; i < image.pixels(); ++i) {
                                 const float* const p = places.pixel(i);
                                 const float cosine = -glm::normalize(glm::vec3(p[0], p[1], p[2])).z;
-                                const auto share = [&](float width) {
+                                const auto fraction = [&](float width) {
                                     return std::clamp((cosine - outer) / width, 0.0f, 1.0f);
                                 };
-                                const float guarded = share(std::max(inner - outer, 0.001f)),
-                                            naive = share(inner - outer);
+                                const float guarded = fraction(std::max(inner - outer, 0.001f)),
+                                            naive = fraction(inner - outer);
                                 const float wrong = guarded > 0 ? naive / guarded : 1.0f;
                                 for (int c = 0; c < 3; ++c) image.pixel(i)[c] *= wrong * wrong;
                             }

@@ -33,7 +33,7 @@ Scene paneUnderStrips() {
 }
 
 // The fraction of the pane's pixels whose error exceeds half of the shadow's contrast.
-double wrongShare(const Frame& frame, const Frame& reference) {
+double wrongFraction(const Frame& frame, const Frame& reference) {
     const Image &made = frame.channels.at(Channel::lit), &truth = reference.channels.at(Channel::lit);
     std::vector<float> seen;
     for (std::size_t i = 0; i < truth.pixels(); ++i)
@@ -70,7 +70,7 @@ TEST(BlendedShadow, IsTheSameWithEveryFitAndWithPages) {
         const std::vector<Frame> frames = bothPaths(renderer, each, {Channel::lit});
         EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)),
                   0u);
-        EXPECT_LE(wrongShare(frames[0], reference), 6.0 / 77)
+        EXPECT_LE(wrongFraction(frames[0], reference), 6.0 / 77)
             << nameOf(each.shadows) << " " << nameOf(each.shadow_fit);
     }
 }

@@ -56,19 +56,19 @@ std::string listed(const Explanation& e) {
 
 struct Tally {
     std::size_t cases = 0, named = 0;
-    double share = 0;  // sum over the named ones
+    double fraction = 0;  // sum over the named ones
     std::string missed{};
 
     double rate() const { return cases > 0 ? static_cast<double>(named) / static_cast<double>(cases) : 0.0; }
     void count(const InjectedView& view, const Explanation& e, bool is_named, double of) {
         ++cases;
         named += is_named ? 1 : 0;
-        share += is_named ? of : 0;
+        fraction += is_named ? of : 0;
         if (!is_named) missed += fmt::format("\n  {}: {}", view.name, listed(e));
     }
     std::string row(const std::string& name) const {
         return fmt::format("{:<62} {:>3} {:>5.0f} % {:>7.1f} %\n", name, cases, 100 * rate(),
-                           named > 0 ? 100 * share / static_cast<double>(named) : 0.0);
+                           named > 0 ? 100 * fraction / static_cast<double>(named) : 0.0);
     }
 };
 
@@ -166,12 +166,12 @@ constexpr InjectedPair injectedPairs[] = {
 
 // The two causes with the largest absolute contributions.
 std::vector<std::string> largestTwo(const Explanation& e) {
-    std::vector<std::pair<double, std::string>> shares;
-    for (const Cause& cause : e.causes) shares.emplace_back(std::abs(cause.contribution), cause.name);
-    std::ranges::stable_sort(shares, [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<std::pair<double, std::string>> fractions;
+    for (const Cause& cause : e.causes) fractions.emplace_back(std::abs(cause.contribution), cause.name);
+    std::ranges::stable_sort(fractions, [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < std::min<std::size_t>(2, shares.size()); ++i)
-        names.push_back(shares[i].second);
+    for (std::size_t i = 0; i < std::min<std::size_t>(2, fractions.size()); ++i)
+        names.push_back(fractions[i].second);
     return names;
 }
 

@@ -102,7 +102,7 @@ public:
     Frame right;
 };
 
-double sumOfShares(const Explanation& e) {
+double sumOfFractions(const Explanation& e) {
     return std::accumulate(e.causes.begin(), e.causes.end(), 0.0,
                            [](double sum, const Cause& cause) { return sum + cause.contribution; });
 }
@@ -155,7 +155,7 @@ TEST_P(ExplainOf, NamesEachPlantedFault) {
         ++effective;
         ASSERT_FALSE(e.causes.empty());
         EXPECT_EQ(e.causes.front().name, fault.channel);
-        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        EXPECT_NEAR(sumOfFractions(e), e.distance - e.unexplained, 1e-6 * e.distance);
         EXPECT_LE(e.unexplained, 1e-6 * e.distance);
         const Frame test = injected.with({fault});
         expectMapsAddUp(e, injected.right, test);
@@ -184,7 +184,7 @@ TEST_P(ExplainOf, NamesBothOfTwoFaults) {
         const Explanation e = explain(device(), injected.renderer, injected.scene, injected.right,
                                       injected.with({all[first], all[second]}));
         const std::vector<std::string> found = names(e);
-        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        EXPECT_NEAR(sumOfFractions(e), e.distance - e.unexplained, 1e-6 * e.distance);
         if (found.size() < 2) continue;  // the scene is insensitive to one of them
         ++effective;
         EXPECT_EQ(found.size(), 2u);
@@ -234,7 +234,7 @@ TEST(Explain, FaultsThatHideEachOtherAreBothNamed) {
     EXPECT_GT(e.pairs.front().interaction, 0);
     for (const Cause& cause : e.causes) EXPECT_LT(cause.alone, 0) << "alone it makes things worse";
     expectMapsAddUp(e, injected.right, hidden);
-    EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+    EXPECT_NEAR(sumOfFractions(e), e.distance - e.unexplained, 1e-6 * e.distance);
 }
 
 // A differing Setting is a cause like a differing channel, and its effect is located in the image.
@@ -251,7 +251,7 @@ TEST(Explain, SettingsAreCauses) {
         EXPECT_EQ(e.causes.front().name, "--" + option);
         EXPECT_GT(e.frames, 1u);
         expectMapsAddUp(e, injected.right, test);
-        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        EXPECT_NEAR(sumOfFractions(e), e.distance - e.unexplained, 1e-6 * e.distance);
     }
 }
 
@@ -271,7 +271,7 @@ TEST(Explain, APackedGBufferIsExplainedByItsChannels) {
         EXPECT_EQ(e.reproduction[0], 0) << name;
         EXPECT_EQ(e.reproduction[1], 0) << name;
         expectMapsAddUp(e, baseline, test);
-        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        EXPECT_NEAR(sumOfFractions(e), e.distance - e.unexplained, 1e-6 * e.distance);
     }
 }
 
@@ -331,7 +331,7 @@ TEST(Explain, NamesTheStageThatTermsDifferIn) {
         EXPECT_EQ(e.causes.front().name, fault.stage);
         EXPECT_NEAR(e.causes.front().contribution, e.distance, 1e-5 * e.distance);
         EXPECT_LE(e.unexplained, 1e-5 * e.distance);
-        EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+        EXPECT_NEAR(sumOfFractions(e), e.distance - e.unexplained, 1e-6 * e.distance);
         expectMapsAddUp(e, right, test);
     }
 }
@@ -345,7 +345,7 @@ TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
     Frame test = right;
     for (const Channel term : {Channel::lit_diffuse, Channel::lit_specular})
         for (float& value : test.channels.at(term).data) value *= 0.5f;
-    for (float& share : test.channels.at(Channel::shadow_visibility).data) share *= 0.5f;
+    for (float& fraction : test.channels.at(Channel::shadow_visibility).data) fraction *= 0.5f;
     sumTerms(test);
     Explanation e = explain(device(), renderer, scene, right, test);
     ASSERT_FALSE(e.causes.empty());
@@ -362,7 +362,7 @@ TEST(Explain, StagesStandBesideChannelsAndShadowsBesideStages) {
     EXPECT_EQ(both.size(), 2u);
     EXPECT_EQ(std::ranges::count(both, "shadow_visibility") + std::ranges::count(both, "emission"), 2);
     EXPECT_LE(e.unexplained, 1e-5 * e.distance);
-    EXPECT_NEAR(sumOfShares(e), e.distance - e.unexplained, 1e-6 * e.distance);
+    EXPECT_NEAR(sumOfFractions(e), e.distance - e.unexplained, 1e-6 * e.distance);
 }
 
 // A missing shadow is attributed to the sun that would cast it, although that sun lights nothing there in

@@ -26,7 +26,7 @@ Settings sampled(Size size, MsaaEdges edges) {
 // Pairs of samples of one pixel that differ when each is shaded, and the number of them shaded as one.
 struct Recall {
     std::size_t pairs = 0, missed = 0;
-    double share() const {
+    double fraction() const {
         return pairs == 0 ? 1 : 1 - static_cast<double>(missed) / static_cast<double>(pairs);
     }
 };
@@ -100,7 +100,7 @@ TEST_P(MsaaEdgesOf, RecallAndWhereTheyDiffer) {
     const Recall similar = recallOf(all, scene.draw(sampled(size, MsaaEdges::similar)), seen);
     // The gallery's lamps hang over flat tiles: light varies within a pixel whose samples have equal
     // G-buffer values. Even with thresholds of 0 the recall is 0.998 there.
-    EXPECT_GE(similar.share(), GetParam() == "builtin:gallery" ? 0.996 : 0.999)
+    EXPECT_GE(similar.fraction(), GetParam() == "builtin:gallery" ? 0.996 : 0.999)
         << similar.missed << " of " << similar.pairs;
     RecordProperty("similar_missed", static_cast<int>(similar.missed));
     RecordProperty("similar_pairs", static_cast<int>(similar.pairs));
@@ -139,7 +139,7 @@ TEST(MsaaEdges, RecallNoticesWhatIsMissed) {
     EXPECT_EQ(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::exact)), anyBit).missed, 0u);
     const DisplayLevel seen(all);
     EXPECT_EQ(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::similar)), seen).missed, 0u);
-    EXPECT_LT(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::coverage)), seen).share(), 0.9);
+    EXPECT_LT(recallOf(all, scene.draw(sampled({32, 32}, MsaaEdges::coverage)), seen).fraction(), 0.9);
 }
 
 // On a fine mesh `similar` shades a pixel once, where `exact` shades each of its triangles.

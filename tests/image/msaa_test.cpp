@@ -259,10 +259,10 @@ TEST(Msaa, ResolvesAsItSays) {
                     bool known = false;
                     for (int k = 0; k <= 4; ++k) {
                         const double weight = resolve == Resolve::linear ? 1 : 1 / (1.0 + double{light.x}),
-                                     share = k * weight / (k * weight + 4 - k);
+                                     fraction = k * weight / (k * weight + 4 - k);
                         bool same = true;
                         for (int c = 0; c < 3; ++c)
-                            same = same && std::abs(double{image.at(x, y, c)} - share * double{light[c]}) <
+                            same = same && std::abs(double{image.at(x, y, c)} - fraction * double{light[c]}) <
                                                1e-6 * double{light[c]};
                         known |= same;
                         seen.at(static_cast<std::size_t>(k)) += same;

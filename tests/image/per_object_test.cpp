@@ -188,7 +188,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
     const auto vec = [&] { return glm::normalize(glm::dvec3(unit(random), unit(random), unit(random))); };
     const glm::dvec3 albedo(0.8, 0.5, 0.25);
     double from_harmonics = 0, from_lists = 0;
-    int shares = 0;
+    int fractions = 0;
     for (int turn = 0; turn < 12; ++turn) {
         const int pixels = turn % 2 == 0 ? 0 : 3;  // lights per pixel
         const glm::dvec3 n = vec(), right = glm::normalize(glm::cross(n, vec())), up = glm::cross(n, right);
@@ -234,9 +234,9 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
         glm::dvec3 listed(0);
         for (gpu::uint i = object.begin; i < object.vertex_end; ++i) {
             const gpu::Light& sun = lights.lights[lists.entries[i].light];
-            const float share = lists.entries[i].weight;
-            shares += i < object.area_end && share > 0.02f && share < 0.98f;
-            listed += glm::dvec3(sun.intensity) * double{share} *
+            const float fraction = lists.entries[i].weight;
+            fractions += i < object.area_end && fraction > 0.02f && fraction < 0.98f;
+            listed += glm::dvec3(sun.intensity) * double{fraction} *
                       std::max(glm::dot(n, glm::dvec3(sun.position)), 0.0);
         }
         const gpu::ObjectIrradiance& e = object.irradiance;
@@ -258,7 +258,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
     }
     EXPECT_GT(from_harmonics, 0.1 * from_lists);
     EXPECT_GT(from_lists, 0.1 * from_harmonics);
-    EXPECT_GE(shares, 2) << "lights shaded per pixel of which the harmonics have a part";
+    EXPECT_GE(fractions, 2) << "lights shaded per pixel of which the harmonics have a part";
 }
 
 // A double-sided square under a vertex light is as bright from behind as from the front.

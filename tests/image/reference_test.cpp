@@ -92,7 +92,7 @@ Coverage samePlaces(const Frame& a, const Frame& b) {
 
 // The rasterizer snaps vertices to 1/256 pixel, so a pixel may err by 1/128 of the difference to its
 // neighbours. 1e-4 relative is allowed beyond that.
-double shareBeyond(const Frame& traced, const Frame& surface, Channel mode, const Coverage& same) {
+double fractionBeyond(const Frame& traced, const Frame& surface, Channel mode, const Coverage& same) {
     const Image &expected = traced.channels.at(mode), &image = surface.channels.at(mode);
     const PixelError error(ErrorKind::relative, debugMode(mode).kind, expected, same);
     std::size_t beyond = 0;
@@ -144,7 +144,7 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
           Channel::specular, Channel::dielectric_f90})  // channels of the material
         EXPECT_LE(against(traced, surface, mode, same).max, 1e-6) << debugMode(mode).name;
     for (const Channel mode : {Channel::lit, Channel::lit_diffuse, Channel::lit_specular})
-        EXPECT_LE(shareBeyond(traced, surface, mode, same), 2e-3) << debugMode(mode).name;
+        EXPECT_LE(fractionBeyond(traced, surface, mode, same), 2e-3) << debugMode(mode).name;
 }
 
 TEST(Reference, ALightAHundredthBrighterIsSeenBetweenItsModes) {
@@ -153,7 +153,7 @@ TEST(Reference, ALightAHundredthBrighterIsSeenBetweenItsModes) {
     const Frame surface = reference(scene, settings);
     scene.lights.front().intensity *= 1.01f;
     const Frame traced = reference(scene, settings, ReferenceMode::scene);
-    EXPECT_GT(shareBeyond(traced, surface, Channel::lit, samePlaces(traced, surface)), 0.3);
+    EXPECT_GT(fractionBeyond(traced, surface, Channel::lit, samePlaces(traced, surface)), 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinReference, testing::ValuesIn(builtinScenes()),

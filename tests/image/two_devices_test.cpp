@@ -152,20 +152,20 @@ TEST(TwoDevices, AnExplanationSaysWhereADifferenceComesFrom) {
     const Frame& own = here.frames[1];
     const Explanation explanation =
         explain(device(), here.uploaded.renderer, here.uploaded.scene, own, other);
-    const std::vector<DeviceContribution> shares = deviceContributions(
+    const std::vector<DeviceContribution> fractions = deviceContributions(
         explanation, own, other,
         experiment::acrossDevices(here.uploaded.scene, here.views.at(viewRequest(own.settings)),
                                   here.precision, own));
-    EXPECT_EQ(shares.front().name, "textures");
+    EXPECT_EQ(fractions.front().name, "textures");
     double all = 0;
     std::string sentence;
-    for (const DeviceContribution& share : shares) {
-        all += share.contribution;
-        sentence += fmt::format("{}: {:.3g}; ", share.name, share.contribution);
+    for (const DeviceContribution& fraction : fractions) {
+        all += fraction.contribution;
+        sentence += fmt::format("{}: {:.3g}; ", fraction.name, fraction.contribution);
     }
     EXPECT_NEAR(all, explanation.distance, 1e-6 * explanation.distance);
     // Vertex snapping is first attributed the change that a sub-pixel step may cause.
-    EXPECT_GT(shares.front().contribution, 0.95 * explanation.distance) << sentence;
+    EXPECT_GT(fractions.front().contribution, 0.95 * explanation.distance) << sentence;
 }
 
 }  // namespace

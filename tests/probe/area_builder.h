@@ -134,7 +134,7 @@ inline glm::dvec3 factorOf(const Light& light, const ltc::Transform& t, const gl
     return sum * ((sum.z < 0 ? -1 : 1) / (2 * reference::pi));
 }
 // Fraction of the transformed cosine that the light covers.
-inline double shareOfSky(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
+inline double fractionOfSky(const Light& light, const ltc::Transform& t, const glm::dvec3& to_viewer) {
     const glm::dvec3 factor = factorOf(light, t, to_viewer);
     return std::clamp(factor.z + t.tilt * factor.x, 0.0, 1.0);
 }
@@ -149,19 +149,19 @@ inline ltc::Transform transformOf(const LtcCell& cell, const Receiver& r) {
 }
 // Specular result of the shader for a covered fraction, with mean direction l under the transformed cosine
 // (in the lobe's frame): the lobe's own value for a small light, the sky's reflection for a large one.
-inline double specularOf(double share, const glm::dvec3& l, const LtcCell& cell, const Receiver& r) {
+inline double specularOf(double fraction, const glm::dvec3& l, const LtcCell& cell, const Receiver& r) {
     const glm::dvec2 f = fresnelOf(r);
     const ltc::Lobe::Value value = ltc::Lobe(r.roughness * r.roughness, r.nDotV())(l);
     const double sky = cell.reflected(f.x, f.y), density = std::max(transformOf(cell, r).density(l), 1e-20);
     const double there = std::min(value.lobe * std::lerp(f.x, f.y, value.schlick) / density, 4 * sky);
-    return std::min(std::lerp(there, sky, std::pow(share, 0.25)) * share, sky);
+    return std::min(std::lerp(there, sky, std::pow(fraction, 0.25)) * fraction, sky);
 }
 inline double specularOf(const Light& light, const LtcCell& cell, const Receiver& r) {
     const ltc::Transform t = transformOf(cell, r);
     const glm::dvec3 factor = factorOf(light, t, r.to_viewer);
     if (!(factor.z > 0)) return 0;
-    const double share = std::clamp(factor.z + t.tilt * factor.x, 0.0, 1.0);
-    return specularOf(share, glm::normalize(t.fromCosine(factor)), cell, r);
+    const double fraction = std::clamp(factor.z + t.tilt * factor.x, 0.0, 1.0);
+    return specularOf(fraction, glm::normalize(t.fromCosine(factor)), cell, r);
 }
 
 }  // namespace diptych::tests

@@ -73,7 +73,7 @@ TEST_P(AreaShapes, AreIntegratedExactly) {
         r.metallic = i % 3 == 0 ? 1 : i % 3 == 1 ? 0 : unit(random);
         r.albedo = 0.2 + 0.8 * unit(random);
         const LtcCell cell = ltcTable().at(r.roughness, r.nDotV());
-        const double plain = shareOfSky(light, {}, r.to_viewer);
+        const double plain = fractionOfSky(light, {}, r.to_viewer);
         expected.push_back({plain, specularOf(light, cell, r)});
         names.push_back(text(light, r));
         Receiver lambert = r;
@@ -124,10 +124,10 @@ TEST_P(AreaShapes, FarAwayTheyArePoints) {
     std::vector<float> input;
     std::vector<double> expected;
     for (const double distance : {1.0, 100.0, 1e5})
-        for (const double share : {0.3, 0.03, 1e-3, 1e-5, 1e-6}) {
+        for (const double fraction : {0.3, 0.03, 1e-3, 1e-5, 1e-6}) {
             Light light = lightOf(GetParam());
             light.position *= distance;
-            light.width = light.height = light.length = static_cast<float>(share * distance);
+            light.width = light.height = light.length = static_cast<float>(fraction * distance);
             light.radius = light.width / 3;
             Receiver r{.roughness = 0.4, .to_viewer = viewAt(30)};
             const LtcCell cell = ltcTable().at(r.roughness, r.nDotV());
@@ -135,8 +135,9 @@ TEST_P(AreaShapes, FarAwayTheyArePoints) {
             // Where rounding dominates the outline's sum, expect solid angle times density.
             const glm::dvec3 l = inLobe(light, r);
             expected.push_back(
-                share > 1e-2 ? specularOf(light, cell, r)
-                             : specularOf(solidAngleOf(light) * transformOf(cell, r).density(l), l, cell, r));
+                fraction > 1e-2
+                    ? specularOf(light, cell, r)
+                    : specularOf(solidAngleOf(light) * transformOf(cell, r).density(l), l, cell, r));
         }
     const auto rows = shadeArea(probes, input);
     for (std::size_t i = 0; i < expected.size(); ++i)

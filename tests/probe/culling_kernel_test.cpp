@@ -235,8 +235,8 @@ TEST(CullingKernel, LeavesOutNothingSeenAlongItsPlaneThatCoversASample) {
         const glm::dvec3 edge = glm::normalize(at[1] - at[0]), up = glm::normalize(normal),
                          along = std::cos(turn) * edge + std::sin(turn) * glm::cross(up, edge);
         const double away = std::exp(1.6 + 0.5 * part(random)),
-                     share = std::pow(10.0, -3 + 1.5 * part(random)) * (i % 2 == 0 ? 1 : -1);
-        const glm::dvec3 eye = at[static_cast<std::size_t>(i % 3)] + away * (along + share * up);
+                     fraction = std::pow(10.0, -3 + 1.5 * part(random)) * (i % 2 == 0 ? 1 : -1);
+        const glm::dvec3 eye = at[static_cast<std::size_t>(i % 3)] + away * (along + fraction * up);
         round.view =
             tests::viewOf({640 + i % 101, 360, round.samples}, eye, {0, 0, 0}, 0.9, 0.05, i % 8 == 5);
         addTo(all, expectTheKernelKeepsWhatShows(round, fmt::format("round {}", i)));

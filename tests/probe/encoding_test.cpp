@@ -77,11 +77,11 @@ TEST(Encoding, OctahedralKeepsTheAxesExactly) {
 TEST(Encoding, SharedExponentKeepsTheLargestComponentWithinHalfAStep) {
     Probes probes;
     std::mt19937 random(1);
-    std::uniform_real_distribution<float> exponent(-15, 15.99f), share(0, 1);
+    std::uniform_real_distribution<float> exponent(-15, 15.99f), fraction(0, 1);
     std::vector<float> input;
     for (int i = 0; i < 100'000; ++i) {
         const float largest = std::exp2(exponent(random));
-        input.insert(input.end(), {largest, largest * share(random), largest * share(random)});
+        input.insert(input.end(), {largest, largest * fraction(random), largest * fraction(random)});
     }
     input.insert(input.end(), {65408, 65408, 0, 0, 0, 0, 511.6f, 1, 0, 1e9f, 2e9f, 3e9f});
     const std::vector<float> output = probes.run("packing", input, 3, 8);

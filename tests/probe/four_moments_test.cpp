@@ -17,9 +17,9 @@ namespace {
 // known, and with it its orthogonal polynomials. Among all distributions with these four moments and a
 // point at `at`, consider the one with the least shadow. Its other points are roots of the polynomials'
 // kernel, with weights 1 / kernel (Akhiezer 1965, "The Classical Moment Problem").
-double minShadowOfBiased(double first, double second, double share, double bias, double at) {
+double minShadowOfBiased(double first, double second, double fraction, double bias, double at) {
     const std::array<double, 4> places{first, second, 0, 1},
-        weights{(1 - bias) * share, (1 - bias) * (1 - share), bias / 2, bias / 2};
+        weights{(1 - bias) * fraction, (1 - bias) * (1 - fraction), bias / 2, bias / 2};
     std::array<std::array<double, 3>, 3> polynomials{};  // coefficients of 1, z, z^2
     const auto value = [](const std::array<double, 3>& p, double z) { return p[0] + z * (p[1] + z * p[2]); };
     const auto product = [&](const auto& a, const auto& b) {
@@ -116,7 +116,7 @@ TEST(FourMoments, APlaneReceivesWhatCoversIt) {
     for (const gpu::uint shadows : {gpu::SHADOWS_EVSM, gpu::SHADOWS_EVSM4, gpu::SHADOWS_MSM4}) {
         std::vector<MomentFilter> filters;
         for (int i = 0; i <= 20; ++i)
-            filters.push_back({.near = 0.9f, .far = 0.3f, .receiver = 0.3f, .share = float(i) / 20});
+            filters.push_back({.near = 0.9f, .far = 0.3f, .receiver = 0.3f, .fraction = float(i) / 20});
         const std::vector<MomentResult> results = seenThrough(shadows, filters);
         for (int i = 0; i <= 20; ++i)
             EXPECT_NEAR(double{results[static_cast<std::size_t>(i)].visibility}, i == 0 ? 1 : 1 - i / 20.0,
@@ -167,11 +167,11 @@ TEST(FourMoments, AnythingStoredGivesAShare) {
     const std::vector<float> strange{0, -0.0f, 1, -1, tiny, -tiny, 1e-20f, 1e20f, big, -big, inf, -inf, nan};
     std::mt19937 random(7);
     const auto any = [&] { return strange[random() % strange.size()]; };
-    const auto share = [&] { return float(random() % 65536) / 65535; };
+    const auto fraction = [&] { return float(random() % 65536) / 65535; };
     std::vector<StoredMoments> stored;
     for (int i = 0; i < 40000; ++i) {
-        StoredMoments s{{any(), any(), any(), any()}, {.near = 0, .far = 0, .receiver = share()}};
-        if (i % 2 == 0) s.moments = {share(), share(), share(), share()};
+        StoredMoments s{{any(), any(), any(), any()}, {.near = 0, .far = 0, .receiver = fraction()}};
+        if (i % 2 == 0) s.moments = {fraction(), fraction(), fraction(), fraction()};
         if (i % 5 == 0) s.filter.receiver = any();
         s.filter.nearest = i % 3 == 0 ? 0.0f : -1.0f;
         s.filter.exponent = i % 7 == 0 ? 0.0f : 44.36f;

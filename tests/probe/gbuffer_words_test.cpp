@@ -49,7 +49,7 @@ std::vector<Stored> storedChannels() {
 
 std::vector<float> inputs() {
     std::mt19937 random(3);
-    std::uniform_real_distribution<float> share(0.001f, 1), exponent(-2, 6), index(1.1f, 2.5f),
+    std::uniform_real_distribution<float> fraction(0.001f, 1), exponent(-2, 6), index(1.1f, 2.5f),
         length(100, 900);
     std::normal_distribution<float> normal;
     std::vector<float> in(rowWidth * rowCount);
@@ -64,7 +64,7 @@ std::vector<float> inputs() {
                         at[c] = normal(random);
                         break;
                     case FieldCode::radiance:
-                        at[c] = scale * (share(random) + 0.1f);
+                        at[c] = scale * (fraction(random) + 0.1f);
                         break;
                     case FieldCode::index:
                         at[c] = index(random);
@@ -73,7 +73,7 @@ std::vector<float> inputs() {
                         at[c] = length(random);
                         break;
                     default:
-                        at[c] = share(random);
+                        at[c] = fraction(random);
                 }
             if (stored.mode->stored.code == FieldCode::line) {  // perpendicular to the normal
                 const float* n = values + 3 * static_cast<std::size_t>(channelNumber(Channel::normals));
@@ -156,7 +156,8 @@ protected:
             const StoredField field{stored.mode->stored.code, table_.bits.at(name), table_.bits.at(normal)};
             bool same = true;
             for (std::size_t i = stored.column(); i < in_.size(); i += rowWidth) {
-                if (!(storedUse(field, &now[i], &in_[i], stored.mode->width).share <= 1)) found.insert(name);
+                if (!(storedUse(field, &now[i], &in_[i], stored.mode->width).fraction <= 1))
+                    found.insert(name);
                 same = same && std::equal(&now[i], &now[i] + 3, &before_[i]);
             }
             // A direction of anisotropy also turns with the normal.

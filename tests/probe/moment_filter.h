@@ -14,7 +14,7 @@ namespace diptych {
 
 struct MomentFilter {
     float near, far, receiver;  // depths, 1 towards the light
-    float share = 0.5f;         // fraction of the filter at depth `near`
+    float fraction = 0.5f;      // fraction of the filter at depth `near`
     float exponent = 40, negative = 5, nearest = 0, bleed = 0, min_variance = 0, bias = 6e-5f;
 };
 struct MomentResult {
@@ -26,8 +26,8 @@ struct MomentResult {
 inline std::vector<MomentResult> seenThrough(gpu::uint shadows, const std::vector<MomentFilter>& filters) {
     std::vector<float> in;
     for (const MomentFilter& f : filters)
-        in.insert(in.end(), {f.near, f.far, f.receiver, f.share, f.exponent, f.negative, f.nearest, f.bleed,
-                             f.min_variance, f.bias});
+        in.insert(in.end(), {f.near, f.far, f.receiver, f.fraction, f.exponent, f.negative, f.nearest,
+                             f.bleed, f.min_variance, f.bias});
     const std::vector<float> out = Probes().run("moments", in, 10, 5, {{gpu::FEATURE_shadows, shadows}});
     std::vector<MomentResult> results;
     for (std::size_t i = 0; i < out.size(); i += 5)

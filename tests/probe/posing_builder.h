@@ -144,13 +144,13 @@ private:
         if (!weights.empty() && whole == 0) whole = weights[0] = 1;
         for (std::size_t s = 0; s < p.joint_sets.size(); ++s) {
             glm::u16vec4 joints{0};
-            glm::vec4 share{0};
+            glm::vec4 fraction{0};
             for (int i = 0; i < 4; ++i) {
-                share[i] = static_cast<float>(weights[4 * s + static_cast<std::size_t>(i)] / whole);
-                if (share[i] > 0) joints[i] = static_cast<std::uint16_t>(below(c.joints));
+                fraction[i] = static_cast<float>(weights[4 * s + static_cast<std::size_t>(i)] / whole);
+                if (fraction[i] > 0) joints[i] = static_cast<std::uint16_t>(below(c.joints));
             }
             p.joint_sets[s].joints.push_back(joints);
-            p.joint_sets[s].weights.push_back(share);
+            p.joint_sets[s].weights.push_back(fraction);
         }
     }
 

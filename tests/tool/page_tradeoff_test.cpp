@@ -58,7 +58,7 @@ TEST(PageTradeoff, WhatWasNotDrawnIsReadableOnAPhone) {
   tell($$('.skips dt, .skips dd').map(item => item.getBoundingClientRect().width / inner));)",
                                   390);
     ASSERT_TRUE(seen.told.is_array() && !seen.told.empty()) << seen.told;
-    for (const double share : seen.told) EXPECT_GT(share, 0.95);
+    for (const double fraction : seen.told) EXPECT_GT(fraction, 0.95);
 }
 
 TEST(PageTradeoff, AnotherErrorAndAnotherOrder) {

@@ -28,8 +28,8 @@ TEST(VerdictExit, ABoundItselfPasses) {
     EXPECT_EQ(runTool(folder, max + "0.24999999").code, 1);
     EXPECT_EQ(runTool(folder, "diff a.pfm a.pfm -q --metric max --tolerance 0").code, 0);
     // A fraction: one of 128 pixels is beyond 0.2, none beyond 0.25.
-    const std::string share = "diff a.pfm b.pfm -q --failing 0.0078125 --tolerance ";
-    EXPECT_EQ(runTool(folder, share + "0.2").code, 0) << "1 / 128 itself";
+    const std::string fraction = "diff a.pfm b.pfm -q --failing 0.0078125 --tolerance ";
+    EXPECT_EQ(runTool(folder, fraction + "0.2").code, 0) << "1 / 128 itself";
     EXPECT_EQ(runTool(folder, "diff a.pfm b.pfm -q --failing 0.0078 --tolerance 0.2").code, 1);
     EXPECT_EQ(runTool(folder, "diff a.pfm b.pfm -q --failing 0 --tolerance 0.25").code, 0);
 }

@@ -114,8 +114,8 @@ AirRay airRay(const Haze h, const float height, const vec3 away, const float rea
 // Distance along the ray at which a `share` of the steps ends. Steps are uniform in the square root of the
 // mean air's remaining attenuation; `lost` is the whole ray's. This puts more steps far away, where the
 // air is thinner than its mean or transmits some colours better.
-float placeOf(const AirRay ray, const Haze h, const float share, const float lost) {
-    float z = share * (2.0 - share) * lost, air = min(z * logRatio(z) / h.extinction.x, ray.air);
+float placeOf(const AirRay ray, const Haze h, const float fraction, const float lost) {
+    float z = fraction * (2.0 - fraction) * lost, air = min(z * logRatio(z) / h.extinction.x, ray.air);
     float from_low = (ray.climbs ? air : ray.air - air) / ray.low;
     float along = from_low * logRatio(from_low * abs(ray.up) * h.inverse_height);
     return ray.climbs ? along : max(ray.reach - along, 0.0);

@@ -144,7 +144,7 @@ vec3 lobeEnvironment(const Reflector r, const float strength, const float factor
         from_lobe = sampledSpecular(r.brdf, r.n, r.v) * factor;
     else
         from_lobe =
-            r.lobe_share * levelRadiance(specularLevel(r.brdf.alpha), octahedralPlace(mirrored)) * factor;
+            r.lobe_fraction * levelRadiance(specularLevel(r.brdf.alpha), octahedralPlace(mirrored)) * factor;
     return from_lobe;
 }
 

@@ -149,8 +149,8 @@ void addJoint(inout Joined sum, const mat4x3 matrix, const float weight, const b
     float determinant = abs(dot(a.x, crossProduct(a.y, a.z)));
     float inverse = min(a.scale / max(determinant, MIN_DETERMINANT), MAX_INVERSE);
     if (sum.unit == 0.0 && weight > 0.0) sum.unit = inverse;
-    float share = sum.unit > 0.0 ? weight * (inverse / sum.unit) : 0.0;
-    sum.normal += share * byCofactors(a, normal);
+    float fraction = sum.unit > 0.0 ? weight * (inverse / sum.unit) : 0.0;
+    sum.normal += fraction * byCofactors(a, normal);
 }
 
 Joined joined(const PosedInstance i, const uint vertex, const bool of_joints, const vec3 normal) {

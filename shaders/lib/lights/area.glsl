@@ -45,7 +45,7 @@ struct AreaIncident {
 };
 
 // F0's fraction of the lobe's reflection.
-float evenShare(const LtcCell cell, const float f0, const float f90) {
+float evenFraction(const LtcCell cell, const float f0, const float f90) {
     float even = f0 * cell.magnitude, all = even + max(f90 - f0, 0.0) * cell.fresnel;
     return even / max(all, 1e-30);
 }
@@ -63,8 +63,8 @@ AreaView areaViewOf(const Brdf brdf, const vec3 n, const vec3 v, const LtcCell c
     a.surface = transpose(mat3(x, crossProduct(n, x), n));
     float sin2 = max(1.0 - brdf.n_dot_v * brdf.n_dot_v, 0.0);
     float m2 = brdf.n_dot_v * brdf.n_dot_v + brdf.alpha * brdf.alpha * sin2;
-    float smallest = evenShare(cell, LTC_LAYER_F0, 1.0);
-    float even = evenShare(cell, dot(brdf.f0, vec3(1.0 / 3.0)), dot(brdf.f90, vec3(1.0 / 3.0)));
+    float smallest = evenFraction(cell, LTC_LAYER_F0, 1.0);
+    float even = evenFraction(cell, dot(brdf.f0, vec3(1.0 / 3.0)), dot(brdf.f90, vec3(1.0 / 3.0)));
     float towards_even = clamp((even - smallest) / max(1.0 - smallest, 1e-6), 0.0, 1.0);
     vec4 lobe = cell.layer + (cell.even - cell.layer) * towards_even;
     a.ltc.inverse_a = m2 / (lobe.x * 2.0 * brdf.alpha);
@@ -138,7 +138,7 @@ AreaLobes fromFactors(const AreaView a, const vec3 plain, const vec3 lobe, const
     mat3 world = transpose(a.surface);
     float weight = schlickWeight(0.5 * lengthOf(unitOrZero(world * plain) + a.v));
     vec3 base = reachingBase(a.brdf, weight);
-    float share = clamp(lobe.z + a.tilt * lobe.x, 0.0, 1.0);
+    float fraction = clamp(lobe.z + a.tilt * lobe.x, 0.0, 1.0);
     vec3 u = unitOrZero(lobe), l = fromCosine(a.ltc, u);
     // Per steradian: a direction's solid angle shrinks by the cube of the length of its image.
     float density = (u.z + a.tilt * u.x) * INVERSE_PI * a.ltc.inverse_a * a.ltc.inverse_c;
@@ -151,7 +151,7 @@ AreaLobes fromFactors(const AreaView a, const vec3 plain, const vec3 lobe, const
     vec3 there = (a.brdf.f0 + (a.brdf.f90 - a.brdf.f0) * schlickWeight(0.5 * sqrt(s2))) *
                  (specularLobe(a.brdf, a.n, s, s2, n_dot_l) * n_dot_l / max(density, 1e-20));
     there = min(there, LTC_MAX_GAIN * a.sky);
-    vec3 reflected = min(blend(there, a.sky, sqrt(sqrt(share))) * share, a.sky);
+    vec3 reflected = min(blend(there, a.sky, sqrt(sqrt(fraction))) * fraction, a.sky);
     vec3 from_base = a.brdf.diffuse * (base * PI * max(plain.z, 0.0)) * radiance;
     vec3 from_lobe = reflected * radiance;
     if (feature_multiscatter == MULTISCATTER_FDEZ)

@@ -125,9 +125,9 @@ uvec2 walked(const PixelLights lights, const uint begin, const uint end) {
 }
 
 // Weight of the light that lightsOfPacket() returned last; 1 without object_lights.
-float packet_share = 1.0;
-Light withShare(Light light) {
-    if (on(feature_object_lights)) light.intensity *= packet_share;
+float packet_fraction = 1.0;
+Light withFraction(Light light) {
+    if (on(feature_object_lights)) light.intensity *= packet_fraction;
     return light;
 }
 
@@ -135,7 +135,7 @@ Light withShare(Light light) {
 uvec4 lightsOfPacket(const uint packet) {
     if (on(feature_object_lights)) {
         ObjectLight entry = object_list[packet];
-        packet_share = entry.weight;
+        packet_fraction = entry.weight;
         return uvec4(entry.light);
     }
     if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + packet);
@@ -153,7 +153,7 @@ uint directionalOf(const uint packet) {
     return on(feature_object_lights) ? lightsOfPacket(packet).x : packet;
 }
 Light directionalAt(const uint packet) {
-    return withShare(lightAt(directionalOf(packet)));
+    return withFraction(lightAt(directionalOf(packet)));
 }
 
 // Iterates over a list's area lights one by one, because evaluating the padding of the last packet would

@@ -32,9 +32,9 @@ Incident fromPointLight(const Light light, const vec3 position) {
 Incident fromSpotLight(const Light light, const SpotCone cone, const vec3 position) {
     Incident incident = fromPointLight(light, position);
     float c = clamp(cone.offset - dot(incident.direction, cone.direction) * cone.scale, 0.0, 1.0);
-    float share = c * c;
-    if (on(feature_smooth_cones)) share *= 3.0 - 2.0 * c;
-    incident.irradiance *= share;
+    float fraction = c * c;
+    if (on(feature_smooth_cones)) fraction *= 3.0 - 2.0 * c;
+    incident.irradiance *= fraction;
     return incident;
 }
 

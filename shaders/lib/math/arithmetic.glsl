@@ -31,7 +31,7 @@ float blend(const float a, const float b, const float t) { return a * (1.0 - t) 
 vec3 blend(const vec3 a, const vec3 b, const float t) { return a * (1.0 - t) + b * t; }
 
 // Clamps to [0, 1]; NaN becomes 0.
-float shareOf(const float value) { return value > 0.0 ? min(value, 1.0) : 0.0; }
+float fractionOf(const float value) { return value > 0.0 ? min(value, 1.0) : 0.0; }
 
 // Mirrors v at the plane with unit normal n.
 vec3 reflection(const vec3 v, const vec3 n) { return v - n * (2.0 * dot(n, v)); }

@@ -77,49 +77,49 @@ float meanSchlickWeight(const float n_dot_v) {
 float cosineOf(const float weight) { return 1.0 - exp(0.2 * log(clamp(weight, 1e-37, 1.0))); }
 
 // Fraction of ambient light that passes the layer above the base.
-vec3 baseShare(const Brdf b) {
+vec3 baseFraction(const Brdf b) {
     float weight = meanSchlickWeight(b.n_dot_v);
-    vec3 share = reachingBase(b, weight);
+    vec3 fraction = reachingBase(b, weight);
     if (hasLayer(LAYER_IRIDESCENCE)) {
         vec3 filmed = layeredAt(b, cosineOf(weight)).base;
-        share = b.film.weight > 0.0 ? filmed : share;
+        fraction = b.film.weight > 0.0 ? filmed : fraction;
     }
-    return share;
+    return fraction;
 }
 
 // Fraction of ambient light that the specular lobe reflects to the viewer; of an anisotropic lobe, that of
 // an isotropic one as wide as it is towards the viewer (shared/material/MEASURED.md, "Layers").
-vec3 lobeShare(const Brdf b) {
+vec3 lobeFraction(const Brdf b) {
     vec2 lobe = b.albedo;
     if (!on(feature_multiscatter) || b.anisotropic) lobe = specularAlbedo(b.seen, b.n_dot_v);
-    vec3 share = b.f0 * lobe.x + b.f90 * lobe.y;
+    vec3 fraction = b.f0 * lobe.x + b.f90 * lobe.y;
     if (hasLayer(LAYER_IRIDESCENCE)) {
         float all = lobe.x + lobe.y;
         vec3 filmed = layeredAt(b, cosineOf(lobe.y / max(all, 1e-6))).lobe * all;
-        share = b.film.weight > 0.0 ? filmed : share;
+        fraction = b.film.weight > 0.0 ? filmed : fraction;
     }
-    return share;
+    return fraction;
 }
 
 // A material under its lights: the base with its lobe, a coat, or what lies behind the surface.
 struct Reflector {
     Brdf brdf;
     vec3 n, v;                   // unit; the normal, and to the viewer
-    vec3 base_share, lobe_share;  // fractions of ambient light, from baseShare() and lobeShare()
+    vec3 base_fraction, lobe_fraction;  // fractions of ambient light, from baseFraction() and lobeFraction()
 };
 Reflector makeReflector(const Brdf b, const vec3 n, const vec3 v) {
-    return Reflector(b, n, v, baseShare(b), lobeShare(b));
+    return Reflector(b, n, v, baseFraction(b), lobeFraction(b));
 }
 
 // Radiance that leaves the base under uniform radiance 1.
-vec3 fromBase(const Reflector r) { return r.brdf.diffuse * PI * r.base_share; }
+vec3 fromBase(const Reflector r) { return r.brdf.diffuse * PI * r.base_fraction; }
 
 // Radiance reflected to the viewer, W/(sr m^2), without occlusion. `ambient`: uniform radiance.
 // `lightmap`: irradiance over pi, reflected by the base only.
 vec3 reflectedAmbient(const Reflector r, const vec3 ambient, const vec3 lightmap) {
     vec3 radiance = vec3(0.0);
     if (on(feature_ambient)) {
-        vec3 reflected = r.lobe_share;
+        vec3 reflected = r.lobe_fraction;
         if (feature_multiscatter == MULTISCATTER_FDEZ) reflected += r.brdf.between * PI;
         radiance = reflected * ambient;
     }

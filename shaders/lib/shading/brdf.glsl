@@ -181,8 +181,8 @@ float specularLobe(const Brdf b, const vec3 n, const vec3 s, const float s2, con
 
 // Fraction of light that reaches the base; `weight` is the weight of f90.
 vec3 reachingBase(const Brdf b, const float weight) {
-    vec3 share = vec3(1.0) - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
-    return share;
+    vec3 fraction = vec3(1.0) - (b.base_f0 + (b.base_f90 - b.base_f0) * weight);
+    return fraction;
 }
 
 // Fresnel term of the lobe, and fraction of light that reaches the base, at one half vector.

@@ -91,11 +91,11 @@ void addIncident(const Shading shading, const Incident light, inout Radiance rad
 }
 
 void addPoint(const Shading shading, const uint i, inout Radiance radiance) {
-    addIncident(shading, fromPointLight(withShare(lightAt(i)), shading.surface.position), radiance);
+    addIncident(shading, fromPointLight(withFraction(lightAt(i)), shading.surface.position), radiance);
 }
 
 void addSpot(const Shading shading, const uint i, inout Radiance radiance) {
-    addIncident(shading, fromSpotLight(withShare(lightAt(i)), spotConeAt(i), shading.surface.position),
+    addIncident(shading, fromSpotLight(withFraction(lightAt(i)), spotConeAt(i), shading.surface.position),
                 radiance);
 }
 
@@ -111,14 +111,14 @@ void addCasting(const Shading shading, Incident light, const uint place, const v
 
 void addCastingPoint(const Shading shading, const uint i, const LocalCasters casters,
                      inout Radiance radiance) {
-    Light light = withShare(lightAt(i));
+    Light light = withFraction(lightAt(i));
     Incident incident = fromPointLight(light, shading.surface.position);
     addCasting(shading, incident, i - view.directional_light_count, light.position, radiance);
 }
 
 void addCastingSpot(const Shading shading, const uint i, const LocalCasters casters,
                     inout Radiance radiance) {
-    Light light = withShare(lightAt(i));
+    Light light = withFraction(lightAt(i));
     Incident incident = fromSpotLight(light, spotConeAt(i), shading.surface.position);
     addCasting(shading, incident, i - casters.spot_shift, light.position, radiance);
 }
@@ -158,7 +158,7 @@ void addCastingSpot(const Shading shading, const uint i, const LocalCasters cast
 #define ADD_AREA(kind, name, cost)                                                            \
     if (on(feature_area_lights & AREA_##name))                                                \
         while (walk.more && walk.number < view.area_ends[kind]) {                             \
-            Light light = withShare(lightAt(walk.light));                                     \
+            Light light = withFraction(lightAt(walk.light));                                     \
             AreaLight shape = areaLightAt(walk.number);                                       \
             uint i = 0u;                                                                      \
             do {                                                                              \
@@ -305,7 +305,7 @@ void addAmbient(const Shading shading, inout Radiance radiance) {
         if (once) radiance.sheen += reflected;
     }
     if (on(feature_ambient) && hasLayer(LAYER_CLEARCOAT)) {
-        vec3 reflected = s.occlusion * (shading.coat.lobe_share * view.ambient);
+        vec3 reflected = s.occlusion * (shading.coat.lobe_fraction * view.ambient);
         radiance.ambient += reflected;
         if (once) radiance.clearcoat += reflected;
     }
@@ -328,7 +328,7 @@ Radiance shade(const Surface s, const PixelLights lights, const float sun_visibi
     if (feature_light_batch == BATCH_LATER) readPartialSums(radiance);
     if (feature_object_lights > OBJECT_LIGHTS_LISTS && feature_light_batch != BATCH_LATER) {
         // The base reflects the draw's lights that are not shaded per pixel.
-        vec3 reflected = shading.base.brdf.diffuse * shading.base.base_share * s.object_irradiance;
+        vec3 reflected = shading.base.brdf.diffuse * shading.base.base_fraction * s.object_irradiance;
         radiance.diffuse = reflected;
     }
     if (on(feature_environment)) addEnvironment(shading, radiance);

@@ -16,13 +16,13 @@
 
 // Fraction of light from behind that the specular layer does not reflect and the base neither scatters nor
 // absorbs, for each component.
-vec3 transmittedShare(const Surface s, const vec3 v) {
+vec3 transmittedFraction(const Surface s, const vec3 v) {
     Brdf b = makeBrdf(s, v);
     if (hasLayer(LAYER_IRIDESCENCE)) addFilm(b, s);
-    vec3 share = s.albedo * layeredAt(b, b.n_dot_v).base;
-    if (hasLayer(LAYER_SHEEN)) share *= belowSheen(makeSheen(s, v));
-    if (hasLayer(LAYER_CLEARCOAT)) share *= 1.0 - clearcoatWeight(s, v);
-    return clamp(share * (s.transmission * (1.0 - s.metallic)), vec3(0.0), vec3(1.0));
+    vec3 fraction = s.albedo * layeredAt(b, b.n_dot_v).base;
+    if (hasLayer(LAYER_SHEEN)) fraction *= belowSheen(makeSheen(s, v));
+    if (hasLayer(LAYER_CLEARCOAT)) fraction *= 1.0 - clearcoatWeight(s, v);
+    return clamp(fraction * (s.transmission * (1.0 - s.metallic)), vec3(0.0), vec3(1.0));
 }
 
 // The pixel that shows a position; `here` for one behind the camera. The inverse of positionFromDepth().
@@ -67,7 +67,7 @@ vec3 lightBehind(const Surface s, const vec3 v, const vec2 pixel) {
 Radiance withTransmission(const Surface s, Radiance radiance, const vec2 pixel) {
     float covers = s.coverage;
     vec3 v = viewVector(s.position);
-    vec3 through = transmittedShare(s, v) * crossing(s);
+    vec3 through = transmittedFraction(s, v) * crossing(s);
     radiance.behind = through * lightBehind(s, v, pixel) * covers;
     radiance.transmission = radiance.behind;
     radiance.diffuse *= covers;

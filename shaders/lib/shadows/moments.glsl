@@ -10,7 +10,9 @@
 
 // `depth`: as in the map, 1 towards the light. The result grows away from the light, from `nearest` (0 or
 // -1) to 1.
-float depthAway(const float depth, const float nearest) { return blend(nearest, 1.0, 1.0 - shareOf(depth)); }
+float depthAway(const float depth, const float nearest) {
+    return blend(nearest, 1.0, 1.0 - fractionOf(depth));
+}
 
 // Moments of one depth; the last two are for feature_shadows = SHADOWS_EVSM4.
 vec4 warpedMoments(const float depth, const float exponent, const float negative, const float nearest) {
@@ -34,14 +36,14 @@ float momentVisibility(const vec4 moments, const float depth, const ShadowLight 
     // Converts a variance of depth to one of w: dw = c (1 - nearest) w dd.
     float slope = light.exponent * range;
     float variance = max(square - mean * mean, light.min_variance * slope * slope);
-    float share = chebyshev(1.0 - mean, min(variance, LARGEST));
+    float fraction = chebyshev(1.0 - mean, min(variance, LARGEST));
     if (feature_shadows == SHADOWS_EVSM4) {
         float per_mean = 1.0 / moments.z, n = -exp(-light.negative * away) * per_mean;
         slope = light.negative * range * n;
         variance = max(moments.w * per_mean * per_mean - 1.0, light.min_variance * slope * slope);
-        share = min(share, chebyshev(1.0 - n, min(variance, LARGEST)));
+        fraction = min(fraction, chebyshev(1.0 - n, min(variance, LARGEST)));
     }
-    return shareOf((share - light.bleed) / (1.0 - light.bleed));
+    return fractionOf((fraction - light.bleed) / (1.0 - light.bleed));
 }
 
 #endif

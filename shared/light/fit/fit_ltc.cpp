@@ -45,9 +45,9 @@ int main(int argc, char** argv) {
     try {
         std::mutex printing;
         int said = 0;
-        const diptych::LtcTable table = diptych::ltc::fitTable([&](double share) {
+        const diptych::LtcTable table = diptych::ltc::fitTable([&](double fraction) {
             const std::lock_guard lock(printing);
-            if (const int percent = static_cast<int>(share * 100); percent >= said + 5)
+            if (const int percent = static_cast<int>(fraction * 100); percent >= said + 5)
                 fmt::print(stderr, "fit_ltc: {} %\n", said = percent);
         });
         writeTable(argv[1], table);

@@ -25,14 +25,14 @@ struct Ball {
 // configuration factor, (r / d)^2 cos (Howell, Menguec and Siegel 2010); it must be wholly above the
 // horizon of the point.
 double skyLight(const glm::dvec3& place, const glm::dvec3& normal, std::span<const Ball> balls) {
-    double share = 1;
+    double fraction = 1;
     for (const Ball& ball : balls) {
         const glm::dvec3 way = ball.centre - place;
         const double distance = std::sqrt(glm::dot(way, way));
-        share -= ball.radius * ball.radius / (distance * distance) *
-                 std::max(glm::dot(way, normal) / distance, 0.0);
+        fraction -= ball.radius * ball.radius / (distance * distance) *
+                    std::max(glm::dot(way, normal) / distance, 0.0);
     }
-    return std::max(share, 0.0);
+    return std::max(fraction, 0.0);
 }
 
 // Makes a lightmap; texel(u, v) is linear radiance, u to the right and v down.

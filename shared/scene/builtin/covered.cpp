@@ -25,22 +25,22 @@ constexpr double behindGlass = 0.5;                                             
 // A layer added to the plain material of the other tiles.
 struct CoverKind {
     const char* name;
-    std::uint32_t CoverShares::*percent;
+    std::uint32_t CoverFractions::*percent;
     void (*put)(Material&);
 };
 constexpr CoverKind coverKinds[] = {
-    {"coated", &CoverShares::coated,
+    {"coated", &CoverFractions::coated,
      [](Material& m) {
          m.clearcoat = 1;
          m.clearcoat_roughness = 0.1f;
      }},
-    {"woven", &CoverShares::woven,
+    {"woven", &CoverFractions::woven,
      [](Material& m) {
          m.sheen_color = glm::vec3(0.5f);
          m.sheen_roughness = 0.4f;
      }},
-    {"brushed", &CoverShares::brushed, [](Material& m) { m.anisotropy = 0.8f; }},
-    {"glass", &CoverShares::glass, [](Material& m) { m.transmission = 1; }}};
+    {"brushed", &CoverFractions::brushed, [](Material& m) { m.anisotropy = 0.8f; }},
+    {"glass", &CoverFractions::glass, [](Material& m) { m.transmission = 1; }}};
 
 // Tiles in a fixed scattered order. The hash is a bijection: no two tie.
 std::vector<std::uint32_t> scatteredTiles() {
@@ -64,8 +64,8 @@ void addLights(Builder& b, std::uint32_t lights) {
 
 }  // namespace
 
-void covered(Builder& b, const CoverShares& shares, std::uint32_t lights) {
-    const std::uint32_t percent = shares.coated + shares.woven + shares.brushed + shares.glass;
+void covered(Builder& b, const CoverFractions& fractions, std::uint32_t lights) {
+    const std::uint32_t percent = fractions.coated + fractions.woven + fractions.brushed + fractions.glass;
     if (percent > 100)
         fail(fmt::format(
             "builtin:covered: coated, woven, brushed and glass are {} % together; they take up to 100",
@@ -92,11 +92,11 @@ void covered(Builder& b, const CoverShares& shares, std::uint32_t lights) {
     const std::vector<std::uint32_t> tiles = scatteredTiles();
     std::size_t next = 0;
     for (const CoverKind& kind : coverKinds) {
-        if (shares.*kind.percent == 0) continue;
+        if (fractions.*kind.percent == 0) continue;
         const int mesh = addTile(kind.name);
         Material& material = b.last();
         kind.put(material);
-        for (const std::size_t end = next + shares.*kind.percent * tilesOfWall / 100; next < end; ++next) {
+        for (const std::size_t end = next + fractions.*kind.percent * tilesOfWall / 100; next < end; ++next) {
             put(tiles[next], mesh, 0);
             if (transmits(material)) put(tiles[next], plain, behindGlass);
         }

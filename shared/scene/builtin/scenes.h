@@ -22,12 +22,12 @@ struct ArrayCounts {
 void array(Builder& b, const ArrayCounts& counts);
 
 // covered.cpp: cost of layers
-struct CoverShares {
+struct CoverFractions {
     std::uint32_t coated, woven, brushed,
         glass;  // clear coat, sheen, anisotropy, transmission; % of the wall
 };
 // The first of the `lights` is a sun. Behind glass is a plain tile.
-void covered(Builder& b, const CoverShares& shares, std::uint32_t lights);
+void covered(Builder& b, const CoverFractions& fractions, std::uint32_t lights);
 
 // surfaces.cpp: surface properties that a G-buffer must store
 void normals(Builder& b);         // seams and steps of normal encodings, in every octant

@@ -238,7 +238,7 @@ namespace {
 // weight of the second.
 struct Between {
     std::size_t first, second;
-    float share;
+    float fraction;
 };
 Between between(std::size_t i, std::size_t from, std::size_t to, bool repeat) {
     const double at =
@@ -280,10 +280,10 @@ void MipChain::replaceAlpha(const MipChain& from, std::size_t component, bool re
                         return static_cast<float>(texels[4 * (j * stride + i) + component]);
                     };
                     const auto row = [&](std::size_t j) {
-                        return code(u.first, j) * (1 - u.share) + code(u.second, j) * u.share;
+                        return code(u.first, j) * (1 - u.fraction) + code(u.second, j) * u.fraction;
                     };
-                    alpha =
-                        static_cast<std::byte>(row(v.first) * (1 - v.share) + row(v.second) * v.share + 0.5f);
+                    alpha = static_cast<std::byte>(row(v.first) * (1 - v.fraction) +
+                                                   row(v.second) * v.fraction + 0.5f);
                 }
         });
     }

@@ -141,7 +141,7 @@ std::vector<Spot> spotsOf(const SkyTexels& sky) {
         for (const std::size_t texel : spot.texels) solid += sky.solid(texel);
         if (solid > sun_spot::largestSolidAngle) spot.texels = peakOf(sky, spot.texels);
         for (const std::size_t texel : spot.texels) spot.light += sky.light(texel) * sky.solid(texel);
-        if (spot.light >= sun_spot::minShare * sky.all()) spots.push_back(std::move(spot));
+        if (spot.light >= sun_spot::minFraction * sky.all()) spots.push_back(std::move(spot));
     }
     std::ranges::stable_sort(spots, std::greater(), &Spot::light);
     return spots;
@@ -243,7 +243,7 @@ std::optional<EnvironmentSun> taken(const SkyTexels& sky, const Texels& spot, co
     // A cap of angular diameter a has the solid angle 4 pi sin^2(a / 4).
     sun.light.angle =
         static_cast<float>(4 * std::asin(std::sqrt(std::min(light * light / squared / (4 * pi), 1.0))));
-    sun.share = power / sky.all();
+    sun.fraction = power / sky.all();
     return sun;
 }
 
@@ -255,7 +255,7 @@ EnvironmentSun environmentSun(const Environment& environment) {
     for (const Spot& spot : spots) {
         const glm::dvec3 around = aroundSpot(sky, spot.texels);
         std::optional<EnvironmentSun> sun = taken(sky, spot.texels, around);
-        if (!sun || sun->share < sun_spot::minShare) continue;
+        if (!sun || sun->fraction < sun_spot::minFraction) continue;
         sun->residual = environment;
         for (const std::size_t i : spot.texels) {
             const glm::dvec3 left(glm::min(sky.color(i), around));
@@ -266,7 +266,7 @@ EnvironmentSun environmentSun(const Environment& environment) {
     EnvironmentSun none;
     none.why = fmt::format(
         "no compact spot of at most {} sr is {:g} times as bright as the mean and has {:g} % of the light",
-        sun_spot::largestSolidAngle, sun_spot::minContrast, 100 * sun_spot::minShare);
+        sun_spot::largestSolidAngle, sun_spot::minContrast, 100 * sun_spot::minFraction);
     return none;
 }
 
@@ -279,14 +279,14 @@ Light turnedSun(const Light& light, double degrees, double factor) {
     return result;
 }
 
-std::string describe(const Light& sun, double share) {
+std::string describe(const Light& sun, double fraction) {
     const glm::dvec3 irradiance = glm::dvec3(sun.color) * double{sun.intensity};
     const glm::dvec3 to_light = glm::round(-1000.0 * sun.direction) / 1000.0 + 0.0;  // avoids -0
     return fmt::format(
         "of {:.3g} degrees towards ({:.3f}, {:.3f}, {:.3f}), {:.4g} lux ({:.4g}, {:.4g}, {:.4g}), {:.3g} % "
         "of the environment's light",
         glm::degrees(double{sun.angle}), to_light.x, to_light.y, to_light.z, luminance(irradiance),
-        irradiance.r, irradiance.g, irradiance.b, 100 * share);
+        irradiance.r, irradiance.g, irradiance.b, 100 * fraction);
 }
 
 }  // namespace diptych

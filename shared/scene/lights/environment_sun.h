@@ -25,7 +25,7 @@ inline constexpr double minFall = 8;
 inline constexpr double minFacing = 0.998;
 inline constexpr double maxLost = 1e-3;
 // Least fraction of the light from all directions.
-inline constexpr double minShare = 0.002;
+inline constexpr double minFraction = 0.002;
 
 }  // namespace sun_spot
 
@@ -40,7 +40,7 @@ struct EnvironmentSun {
     // illuminance is that of a facing surface, per component. The angle is that of a uniform disc with
     // this illuminance and mean squared radiance.
     Light light;
-    double share = 0;  // fraction of the environment's luminance
+    double fraction = 0;  // fraction of the environment's luminance
 };
 
 // Extracts the spot with the most luminance that meets the criteria. Integrates the bilinear image that
@@ -53,6 +53,6 @@ Light turnedSun(const Light& light, double degrees, double factor);
 
 // "of 0.53 degrees, towards (0.3, 0.8, 0.5), 12.4 (10.1, 9.2, 8.1) lux, 63 % of the environment's light",
 // for a light of turnedSun().
-std::string describe(const Light& sun, double share);
+std::string describe(const Light& sun, double fraction);
 
 }  // namespace diptych

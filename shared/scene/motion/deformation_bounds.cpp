@@ -25,13 +25,13 @@ void include(VertexBox& box, const glm::vec3& p) {
     box.max = glm::max(box.max, p);
 }
 
-struct Share {
+struct Fraction {
     std::uint32_t joint;
-    double share;
+    double fraction;
 };
 // The joints of a vertex, each once, with normalized weights as in posed.cpp.
-void sharesOf(const Primitive& primitive, std::size_t vertex, std::vector<Share>& shares) {
-    shares.clear();
+void fractionsOf(const Primitive& primitive, std::size_t vertex, std::vector<Fraction>& fractions) {
+    fractions.clear();
     double whole = 0;
     for (const JointSet& set : primitive.joint_sets)
         for (int i = 0; i < 4; ++i) {
@@ -39,13 +39,13 @@ void sharesOf(const Primitive& primitive, std::size_t vertex, std::vector<Share>
             if (!(weight > 0)) continue;
             whole += weight;
             const std::uint32_t joint = set.joints[vertex][i];
-            const auto known = std::ranges::find(shares, joint, &Share::joint);
-            if (known == shares.end())
-                shares.push_back({joint, weight});
+            const auto known = std::ranges::find(fractions, joint, &Fraction::joint);
+            if (known == fractions.end())
+                fractions.push_back({joint, weight});
             else
-                known->share += weight;
+                known->fraction += weight;
         }
-    for (Share& share : shares) share.share /= whole;
+    for (Fraction& fraction : fractions) fraction.fraction /= whole;
 }
 
 class Clustering {
@@ -59,10 +59,10 @@ public:
         std::vector<std::uint32_t> joint(order_.size(), 0);
         for (std::uint32_t v = 0; v < order_.size(); ++v) {
             order_[v] = v;
-            sharesOf(primitive, v, shares_);
+            fractionsOf(primitive, v, fractions_);
             double max = 0;
-            for (const Share& share : shares_)
-                if (share.share > max) joint[v] = share.joint, max = share.share;
+            for (const Fraction& fraction : fractions_)
+                if (fraction.fraction > max) joint[v] = fraction.joint, max = fraction.fraction;
         }
         std::ranges::stable_sort(order_, {}, [&](std::uint32_t v) { return joint[v]; });
         std::vector<std::span<std::uint32_t>> runs;
@@ -89,7 +89,7 @@ private:
     const Primitive& primitive_;
     const std::size_t min_size_;
     std::vector<std::uint32_t> order_;
-    std::vector<Share> shares_;  // of the current vertex
+    std::vector<Fraction> fractions_;  // of the current vertex
     DeformationBounds result_;
 
     // Splits the vertices at the median along their box's longest side, up to `splits` times and down to
@@ -109,22 +109,23 @@ private:
     }
 
     void add(std::span<const std::uint32_t> vertices, const VertexBox& box) {
-        struct Shares {
+        struct Fractions {
             DeformationBounds::Influence influence;
             double sum = 0;
             std::size_t vertices = 0;
         };
-        std::map<std::uint32_t, Shares> joints;
+        std::map<std::uint32_t, Fractions> joints;
         for (const std::uint32_t v : vertices) {
-            sharesOf(primitive_, v, shares_);
-            for (const Share& share : shares_) {
-                Shares& joint = joints[share.joint];
+            fractionsOf(primitive_, v, fractions_);
+            for (const Fraction& fraction : fractions_) {
+                Fractions& joint = joints[fraction.joint];
                 DeformationBounds::Influence& influence = joint.influence;
-                influence.joint = share.joint;
-                influence.min = joint.vertices == 0 ? share.share : std::min(influence.min, share.share);
-                influence.max = std::max(influence.max, share.share);
+                influence.joint = fraction.joint;
+                influence.min =
+                    joint.vertices == 0 ? fraction.fraction : std::min(influence.min, fraction.fraction);
+                influence.max = std::max(influence.max, fraction.fraction);
                 include(influence.box, primitive_.positions[v]);
-                joint.sum += share.share;
+                joint.sum += fraction.fraction;
                 ++joint.vertices;
             }
         }
@@ -136,10 +137,10 @@ private:
             result_.influences.push_back(joint.influence);
         }
         for (const std::uint32_t v : vertices) {
-            sharesOf(primitive_, v, shares_);
+            fractionsOf(primitive_, v, fractions_);
             double others = 0;
-            for (const Share& share : shares_)
-                if (share.joint != cluster.joint) others += share.share;
+            for (const Fraction& fraction : fractions_)
+                if (fraction.joint != cluster.joint) others += fraction.fraction;
             cluster.others = std::max(cluster.others, others);
         }
         cluster.end_influence = static_cast<std::uint32_t>(result_.influences.size());
@@ -208,7 +209,7 @@ public:
 private:
     struct Term {
         Range apart;
-        double share;
+        double fraction;
     };
     const DeformationBounds& bounds_;
     const Deformation& deformation_;
@@ -238,11 +239,11 @@ private:
     double furthest(double rest, const Pull& pull) {
         pulls_.clear();
         for (const Term& term : terms_)
-            if (pull(term) > 0) pulls_.push_back({pull(term), term.share});
+            if (pull(term) > 0) pulls_.push_back({pull(term), term.fraction});
         std::ranges::sort(pulls_, std::greater{});
         double sum = 0;
-        for (const auto& [far, share] : pulls_) {
-            const double taken = std::min(share, rest);
+        for (const auto& [far, fraction] : pulls_) {
+            const double taken = std::min(fraction, rest);
             if (!(taken > 0)) break;
             sum += taken * far;
             rest -= taken;
@@ -260,15 +261,15 @@ DeformationBounds deformationBounds(const Primitive& primitive) {
 }
 
 std::uint32_t mainJoint(const Primitive& primitive) {
-    std::vector<double> shares(1, 0);
+    std::vector<double> fractions(1, 0);
     for (const JointSet& set : primitive.joint_sets)
         for (std::size_t v = 0; v < set.joints.size(); ++v)
             for (int i = 0; i < 4; ++i) {
                 const std::size_t joint = set.joints[v][i];
-                if (joint >= shares.size()) shares.resize(joint + 1, 0);
-                shares[joint] += set.weights[v][i];
+                if (joint >= fractions.size()) fractions.resize(joint + 1, 0);
+                fractions[joint] += set.weights[v][i];
             }
-    return static_cast<std::uint32_t>(std::ranges::max_element(shares) - shares.begin());
+    return static_cast<std::uint32_t>(std::ranges::max_element(fractions) - fractions.begin());
 }
 
 void prepareDeformationBounds(Scene& scene) {

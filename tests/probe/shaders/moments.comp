@@ -18,7 +18,7 @@ vec4 stored(const float depth, const ShadowLight light) {
 void main() {
     if (PROBE_ROW >= probe_rows) return;
     ShadowLight light;
-    float share = IN(WIDTH, 3), receiver = IN(WIDTH, 2);
+    float fraction = IN(WIDTH, 3), receiver = IN(WIDTH, 2);
     light.exponent = IN(WIDTH, 4);
     light.negative = IN(WIDTH, 5);
     light.nearest = IN(WIDTH, 6);
@@ -26,7 +26,7 @@ void main() {
     light.min_variance = IN(WIDTH, 8);
     light.moment_bias = IN(WIDTH, 9);
     // Weighted before adding, as a blur does: the sum of the largest moments overflows.
-    vec4 moments = stored(IN(WIDTH, 0), light) * share + stored(IN(WIDTH, 1), light) * (1.0 - share);
+    vec4 moments = stored(IN(WIDTH, 0), light) * fraction + stored(IN(WIDTH, 1), light) * (1.0 - fraction);
     OUT(5, 0) = visibilityOfMoments(moments, receiver, light);
     OUT(5, 1) = moments.x;
     OUT(5, 2) = moments.y;

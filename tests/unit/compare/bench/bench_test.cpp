@@ -181,14 +181,14 @@ Bench several() {
     return bench;
 }
 
-TEST(BenchOutput, TheShareIsOfThePassesThatAssign) {
+TEST(BenchOutput, TheFractionIsOfThePassesThatAssign) {
     const Bench bench = several();
     EXPECT_EQ(passMs(bench.rows[0], "assign"), 0.0);
-    EXPECT_EQ(assignShare(bench.rows[0]), 0.0);
+    EXPECT_EQ(assignFraction(bench.rows[0]), 0.0);
     EXPECT_DOUBLE_EQ(passMs(bench.rows[2], "assign"), 1.0);
-    EXPECT_DOUBLE_EQ(assignShare(bench.rows[2]), 0.125);
-    EXPECT_DOUBLE_EQ(assignShare(bench.rows[3]), 0.25);
-    EXPECT_EQ(assignShare(BenchRow{}), 0.0);
+    EXPECT_DOUBLE_EQ(assignFraction(bench.rows[2]), 0.125);
+    EXPECT_DOUBLE_EQ(assignFraction(bench.rows[3]), 0.25);
+    EXPECT_EQ(assignFraction(BenchRow{}), 0.0);
 }
 
 TEST(BenchOutput, MillisecondsHaveFourDigitsOrAllBeforeThePoint) {

@@ -30,7 +30,7 @@ std::string layerRefusal(const std::vector<std::string>& words) {
     return faultOf([&] { makeBenchCases("builtin:gallery", Settings(), layerOptions(words)); });
 }
 
-TEST(BenchLayers, EachKindAndShareIsTimedUnderEachLightCountInThreeWays) {
+TEST(BenchLayers, EachKindAndFractionIsTimedUnderEachLightCountInThreeWays) {
     const BenchOptions options = layerOptions();
     const BenchCases cases = makeBenchCases("builtin:gallery", Settings(), options);
     std::set<std::tuple<std::string_view, int, std::uint32_t>> groups;

@@ -143,7 +143,7 @@ void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
                "judged");
     for (const RecordedSweep& sweep : recordedSweeps()) {
         std::size_t tried = 0, good = 0;
-        double worst = 1, share = 0, images = 0;
+        double worst = 1, fraction = 0, images = 0;
         const std::vector<Settings> candidates = candidatesOf(sweep);
         for (const Budget& budget : budgetsFor(sweep))
             for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -151,7 +151,7 @@ void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
                 ++tried;
                 good += outcome.right;
                 worst = std::max(worst, outcome.off);
-                share += outcome.timings;
+                fraction += outcome.timings;
                 images += static_cast<double>(outcome.evaluated);
                 if (!outcome.right && std::getenv("DIPTYCH_REPLAY_VERBOSE"))
                     fmt::print("  wrong: error {} ms {} bytes {} seed {}: off {:.3f} timings {:.1f} %\n",
@@ -160,11 +160,11 @@ void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
             }
         cases += tried;
         right += good;
-        timings += share;
+        timings += fraction;
         evaluated += images;
         const auto n = static_cast<double>(tried);
         fmt::print("{:<28} {:>6} {:>6} of {:>4} {:>10.1f} % {:>11.3f} {:>10.1f}\n", sweep.scene,
-                   sweep.rows.size(), good, tried, 100 * share / n, worst, images / n);
+                   sweep.rows.size(), good, tried, 100 * fraction / n, worst, images / n);
     }
     const auto n = static_cast<double>(cases);
     fmt::print("{} of {} ({:.1f} %) within 5 %, {:.1f} % of a sweep's timings, {:.1f} judged\n", right, cases,

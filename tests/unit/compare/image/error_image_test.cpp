@@ -50,20 +50,20 @@ Seen seen(const Rgb& color) {
 
 // The map's lightness is linear in the square root of the error: from 0.22 to 0.97. Half a byte step is at
 // most 0.004 of lightness; clipping colours outside the display's gamut adds up to 0.012.
-TEST(ErrorMap, LightnessIsLinearInTheRootOfTheErrorsShareOfTheTop) {
-    const double shares[] = {1e-4, 1e-3, 0.01, 1.0 / 16, 0.1, 0.25, 0.4, 9.0 / 16, 0.75, 1};
+TEST(ErrorMap, LightnessIsLinearInTheRootOfTheErrorsFractionOfTheTop) {
+    const double fractions[] = {1e-4, 1e-3, 0.01, 1.0 / 16, 0.1, 0.25, 0.4, 9.0 / 16, 0.75, 1};
     for (const double top : {1e-6, 0.37, 1.0, 2500.0}) {
-        Image errors(static_cast<int>(std::size(shares)), 1, 1);
-        for (std::size_t i = 0; i < std::size(shares); ++i)
-            errors.data[i] = static_cast<float>(shares[i] * top);
+        Image errors(static_cast<int>(std::size(fractions)), 1, 1);
+        for (std::size_t i = 0; i < std::size(fractions); ++i)
+            errors.data[i] = static_cast<float>(fractions[i] * top);
         const Image8 image = errorMap(errors, top);
-        for (std::size_t i = 0; i < std::size(shares); ++i) {
-            const double root = std::sqrt(shares[i]);
+        for (std::size_t i = 0; i < std::size(fractions); ++i) {
+            const double root = std::sqrt(fractions[i]);
             EXPECT_NEAR(seen(pixelOf(image, i)).lightness, 0.22 + 0.75 * root, 0.016)
-                << top << " x " << shares[i];
+                << top << " x " << fractions[i];
             // The map has 253 colours; half a step between them is at most two bytes.
             for (std::size_t c = 0; c < 3; ++c)
-                EXPECT_NEAR(pixelOf(image, i)[c], errorColor(root)[c], 2) << top << " x " << shares[i];
+                EXPECT_NEAR(pixelOf(image, i)[c], errorColor(root)[c], 2) << top << " x " << fractions[i];
         }
     }
 }

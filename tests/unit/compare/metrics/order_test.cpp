@@ -33,9 +33,9 @@ TEST(Order, RanksAreThoseOfTheSortedValues) {
     std::ranges::sort(sorted);
     const Order order(values);
     EXPECT_EQ(order.size(), values.size());
-    for (const double share : {0.0, 1e-9, 0.001, 0.25, 0.5, 0.75, 0.99, 0.999, 1.0}) {
-        const auto rank = std::max(1.0, std::ceil(share * 10007));
-        EXPECT_EQ(order.nearestRank(share), sorted[static_cast<std::size_t>(rank) - 1]) << share;
+    for (const double fraction : {0.0, 1e-9, 0.001, 0.25, 0.5, 0.75, 0.99, 0.999, 1.0}) {
+        const auto rank = std::max(1.0, std::ceil(fraction * 10007));
+        EXPECT_EQ(order.nearestRank(fraction), sorted[static_cast<std::size_t>(rank) - 1]) << fraction;
     }
 }
 
@@ -78,11 +78,11 @@ TEST(Order, WeightedQuantilesAreThoseOfTheSortedValues) {
     double sum = 0;
     for (const float v : sorted) sum += double{v};
     const Order order(values);
-    for (const double share : {0.1, 0.25, 0.5, 0.75, 0.9}) {
+    for (const double fraction : {0.1, 0.25, 0.5, 0.75, 0.9}) {
         double below = 0;
         std::size_t i = 0;
-        while (below + double{sorted[i]} < share * sum) below += double{sorted[i++]};
-        EXPECT_EQ(order.weightedQuantile(share), sorted[i]) << share;
+        while (below + double{sorted[i]} < fraction * sum) below += double{sorted[i++]};
+        EXPECT_EQ(order.weightedQuantile(fraction), sorted[i]) << fraction;
     }
 }
 

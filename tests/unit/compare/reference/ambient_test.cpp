@@ -35,9 +35,9 @@ TEST(ReferenceAmbient, AWhiteLambertianSurfaceSendsItBack) {
         Surface s = mirror(0.5, angle);
         s.metallic = 0;
         s.dielectric_f90 = 0;
-        const Reflected share = ambientAlbedo(s);
-        EXPECT_NEAR(share.diffuse.g, 1, 1e-12);
-        EXPECT_EQ(share.specular.g, 0);
+        const Reflected fraction = ambientAlbedo(s);
+        EXPECT_NEAR(fraction.diffuse.g, 1, 1e-12);
+        EXPECT_EQ(fraction.specular.g, 0);
     }
 }
 
@@ -55,10 +55,10 @@ TEST(ReferenceAmbient, IsTheBrdfsIntegral) {
             s.albedo = {0.9, 0.5, 0.1};
             s.dielectric_f0 = {0.04, 0.1, 0.3};
             s.dielectric_f90 = 0.9;
-            const Reflected share = ambientAlbedo(s), expected = bruteForce(s);
+            const Reflected fraction = ambientAlbedo(s), expected = bruteForce(s);
             for (int c = 0; c < 3; ++c) {
-                EXPECT_NEAR(share.diffuse[c], expected.diffuse[c], 5e-6) << roughness << " " << angle;
-                EXPECT_NEAR(share.specular[c], expected.specular[c], 5e-6) << roughness << " " << angle;
+                EXPECT_NEAR(fraction.diffuse[c], expected.diffuse[c], 5e-6) << roughness << " " << angle;
+                EXPECT_NEAR(fraction.specular[c], expected.specular[c], 5e-6) << roughness << " " << angle;
             }
         }
 }
@@ -71,12 +71,12 @@ TEST(ReferenceAmbient, NothingReflectsMoreThanThereIs) {
                 s.metallic = metallic;
                 s.dielectric_f0 = glm::dvec3(0.04);
                 s.dielectric_f90 = 1;
-                const Reflected share = ambientAlbedo(s);
+                const Reflected fraction = ambientAlbedo(s);
                 // A base under Schlick's layer is weighted by 1 - F of the half vector, so it gains energy
                 // at grazing angles.
-                EXPECT_LE(share.specular.g, 1 + 1e-6);
-                EXPECT_LE(share.diffuse.g, 1 + 1e-6);
-                EXPECT_GE(share.size(), 0);
+                EXPECT_LE(fraction.specular.g, 1 + 1e-6);
+                EXPECT_LE(fraction.diffuse.g, 1 + 1e-6);
+                EXPECT_GE(fraction.size(), 0);
             }
         }
 }

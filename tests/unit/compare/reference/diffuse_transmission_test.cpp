@@ -52,7 +52,7 @@ TEST(ReferenceDiffuseTransmission, TheDiffuseLobeKeepsTheRest) {
 }
 
 // The layer takes as much as of light mirrored to the front: Schlick's term at the half vector.
-TEST(ReferenceDiffuseTransmission, TheLayerTakesItsShareOfTheLight) {
+TEST(ReferenceDiffuseTransmission, TheLayerTakesItsFractionOfTheLight) {
     for (const double view : {0.1, 1.2})
         for (const double angle : {0.3, 1.4}) {
             const Surface s = waxyLeaf(0.5, view);
@@ -64,7 +64,7 @@ TEST(ReferenceDiffuseTransmission, TheLayerTakesItsShareOfTheLight) {
         }
 }
 
-TEST(ReferenceDiffuseTransmission, MetalAndTransmissionTakeTheirShares) {
+TEST(ReferenceDiffuseTransmission, MetalAndTransmissionTakeTheirFractions) {
     Surface s = leaf(0.5);
     s.metallic = 0.25;
     s.transmission = 0.5;

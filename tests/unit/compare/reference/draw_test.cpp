@@ -208,10 +208,10 @@ TEST(ReferenceDraw, WhatFloat32ErrsByIsKeptWhereItCounts) {
         const Drawn d = drawn(scene, view);
         ASSERT_EQ(d.image.rounding.empty(), range == 20);
         if (range == 20) continue;
-        const double share =
+        const double ratio =
             double{d.image.rounding.at(0, 0, 0)} / double{d[Channel::lit_diffuse].at(0, 0, 0)};
-        EXPECT_GT(share, 0.001);
-        EXPECT_LT(share, 0.02);
+        EXPECT_GT(ratio, 0.001);
+        EXPECT_LT(ratio, 0.02);
     }
 }
 

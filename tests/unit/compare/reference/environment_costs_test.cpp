@@ -169,7 +169,7 @@ TEST(ReferenceEnvironmentCosts, TheSplitSumCostsMoreAtGrazingAngles) {
 // ---- occlusion by geometry ---------------------------------------------------------------------------
 
 // Mean occluded fraction of light on a floor, seen from above around (0.05, 0, 0).
-double hiddenShare(const Scene& scene, const glm::dvec3& ambient) {
+double hiddenFraction(const Scene& scene, const glm::dvec3& ambient) {
     const Pose pose = poseAt(scene, 0);
     const View view = viewFrom({0.05, 0.01, 2}, {0.05, 0, 0}, 12, 12, glm::radians(1.0));
     const ReferenceImage image = draw({.scene = scene,
@@ -193,14 +193,14 @@ double hiddenShare(const Scene& scene, const glm::dvec3& ambient) {
 TEST(ReferenceSurroundings, AWallHidesHalf) {
     Scene scene = floorScene();
     scene.environment = evenSky(1);
-    EXPECT_EQ(hiddenShare(scene, glm::dvec3(0)), 0);
+    EXPECT_EQ(hiddenFraction(scene, glm::dvec3(0)), 0);
     // Occluded by a wall of height H at distance x: (1 - x / sqrt(x^2 + H^2)) / 2.
     add(scene, quad({0, -1000, 0}, {0, 2000, 0}, {0, 0, 1000}));
-    EXPECT_NEAR(hiddenShare(scene, glm::dvec3(0)), 0.5, 0.01);
+    EXPECT_NEAR(hiddenFraction(scene, glm::dvec3(0)), 0.5, 0.01);
     scene.environment->radiance = Image(2, 1, 3, 0.25f);
-    EXPECT_NEAR(hiddenShare(scene, glm::dvec3(0.75)), 0.5, 0.01) << "of the environment and ambient light";
+    EXPECT_NEAR(hiddenFraction(scene, glm::dvec3(0.75)), 0.5, 0.01) << "of the environment and ambient light";
     scene.environment.reset();
-    EXPECT_NEAR(hiddenShare(scene, glm::dvec3(1)), 0.5, 0.01) << "of ambient light alone";
+    EXPECT_NEAR(hiddenFraction(scene, glm::dvec3(1)), 0.5, 0.01) << "of ambient light alone";
 }
 
 // The mean over many surfaces of the light around them is its integral, also of light from behind.
@@ -226,7 +226,7 @@ TEST(ReferenceSurroundings, ALowWallHidesWhatItSubtends) {
     Scene scene = floorScene();
     scene.environment = evenSky(1);
     add(scene, quad({0, -1000, 0}, {0, 2000, 0}, {0, 0, 0.05f}));
-    EXPECT_NEAR(hiddenShare(scene, glm::dvec3(0)), (1 - std::sqrt(0.5)) / 2, 0.02);
+    EXPECT_NEAR(hiddenFraction(scene, glm::dvec3(0)), (1 - std::sqrt(0.5)) / 2, 0.02);
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(ReferenceIridescence, CompensationsAreThoseOfTheSurfaceWithoutIt) {
     const glm::dvec3 l(0, 0, 1);
     EXPECT_GT(energy.metal.r, 1.1);
     expectColor(Brdf(metal, energy).lobe(l), energy.metal * Brdf(metal).lobe(l), 1e-12);
-    EXPECT_EQ(Between(s).share(), Between(plain).share());
+    EXPECT_EQ(Between(s).fraction(), Between(plain).fraction());
 }
 
 // ---- one cosine in its place ---------------------------------------------------------------------------

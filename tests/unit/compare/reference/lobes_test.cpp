@@ -282,7 +282,7 @@ TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
     };
     enum { sharp, grazing, ending, easy, all };
     for (int kind = 0; kind < all; ++kind) {
-        int lights = 0, beyond_share = 0, wider_seen = 0, brighter_seen = 0;
+        int lights = 0, beyond_fraction = 0, wider_seen = 0, brighter_seen = 0;
         double closest = 0, max = 0;
         for (int i = 0; i < 20000; ++i) {
             const glm::vec3 place(anywhere() * number(5, 20)), n = glm::normalize(glm::vec3(anywhere()));
@@ -306,13 +306,13 @@ TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
                 return std::abs(factor * lightInFloat(light, place, n, static_cast<float>(width)) -
                                 shading.reflected.specular.g);
             };
-            const double share = everywhereRounded * shading.reflected.specular.g,
-                         bound = std::max(share, shading.rounding.y), error = errorOf(alpha, 1);
+            const double fraction = everywhereRounded * shading.reflected.specular.g,
+                         bound = std::max(fraction, shading.rounding.y), error = errorOf(alpha, 1);
             EXPECT_LE(error, bound) << kind << " " << s.roughness << " " << up;
             ++lights;
-            beyond_share += error > share;
+            beyond_fraction += error > fraction;
             closest = std::max(closest, error / bound);
-            max = std::max(max, bound / share);
+            max = std::max(max, bound / fraction);
             wider_seen += errorOf(1.01 * alpha, 1) > bound;
             brighter_seen += errorOf(alpha, 1.001) > bound;
         }
@@ -324,7 +324,7 @@ TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
             EXPECT_EQ(brighter_seen, lights);
             continue;
         }
-        EXPECT_GT(beyond_share, lights / 100);
+        EXPECT_GT(beyond_fraction, lights / 100);
         EXPECT_GT(closest, 0.1) << "the bound is not far above the errors";
         EXPECT_GT(brighter_seen, lights / 2);
     }

@@ -44,7 +44,7 @@ Walk walk(double roughness, const glm::dvec3& from, Random& random, double f0 = 
 // An estimate of f(l, v) n.l for two and more reflections.
 glm::dvec3 again(const Between& paths, const glm::dvec3& to_light, Random& random) {
     return paths.path(random, [&](const Between::Add& add) { add(to_light, glm::dvec3(1)); }).direct *
-           paths.share();
+           paths.fraction();
 }
 
 // Half a 99.99 % confidence interval of the mean of values in [0, 1] with this mean.
@@ -92,7 +92,7 @@ TEST(ReferenceMicrosurface, AWhiteConductorVanishesInAFurnace) {
     for (const auto& [roughness, cosine] : angles) {
         const Surface s = mirror(roughness, std::acos(cosine));
         const Between paths(s);
-        const int walks = static_cast<int>(40'000 * std::min(1.0, 5 * paths.share()));
+        const int walks = static_cast<int>(40'000 * std::min(1.0, 5 * paths.fraction()));
         Random random(3);
         double sum = 0, squares = 0;
         for (int i = 0; i < walks; ++i) {
@@ -150,7 +150,7 @@ TEST(ReferenceMicrosurface, TheReferenceFollowsItForEveryKindOfLight) {
             s.dielectric_f0 = glm::dvec3(0.04);
             s.dielectric_f90 = 1;
             const Shading shading = shaded(s, {}, 1);
-            EXPECT_NEAR(shading.ambient.g, 1, 2 * shading.uncertainty + Between::minShare)
+            EXPECT_NEAR(shading.ambient.g, 1, 2 * shading.uncertainty + Between::minFraction)
                 << roughness << " " << cosine;
             EXPECT_LE(shading.uncertainty, 0.02) << roughness << " " << cosine;
         }

@@ -30,7 +30,7 @@ void addScreen(Scene& scene, double from, double half) {
 enum class From { scene, capture, rounded_capture };
 
 // The pixel's radiance relative to full light, cos 80 / pi.
-double litShare(const Scene& scene, double camera, From from) {
+double litFraction(const Scene& scene, double camera, From from) {
     const View view = viewFrom({0, 0, camera}, {0, 0, 0}, 1, 1);
     Drawn first = drawn(scene, view, true);
     const double whole = toLight.z / pi;
@@ -56,7 +56,7 @@ TEST(ReferenceShadowRays, InTheOpenTheWallIsFullyLit) {
     for (const double camera : cameras)
         for (const double distance : {0.05, 1.0, 30.0})
             for (const From from : {From::scene, From::capture, From::rounded_capture})
-                EXPECT_NEAR(litShare(wallScene(lampAt(distance)), camera, from), 1, 2e-6)
+                EXPECT_NEAR(litFraction(wallScene(lampAt(distance)), camera, from), 1, 2e-6)
                     << camera << " " << distance;
 }
 
@@ -71,7 +71,7 @@ TEST(ReferenceShadowRays, BeginAtTheSurface) {
                     if (from == From::rounded_capture && along < 1e-4 * camera) continue;
                     Scene scene = wallScene(lampAt(distance));
                     addScreen(scene, along, 0.3 * along);
-                    EXPECT_EQ(litShare(scene, camera, from), 0)
+                    EXPECT_EQ(litFraction(scene, camera, from), 0)
                         << along << " m from the surface, camera " << camera << ", light " << distance;
                 }
 }
@@ -84,7 +84,7 @@ TEST(ReferenceShadowRays, DoNotBeginBehindTheSurface) {
                 Scene scene = wallScene(lampAt(1));
                 add(scene, quad({-10, -10, static_cast<float>(-behind)}, {20, 0, 0}, {0, 20, 0}));
                 addScreen(scene, -behind, 0.3 * behind);
-                EXPECT_NEAR(litShare(scene, camera, from), 1, 2e-6)
+                EXPECT_NEAR(litFraction(scene, camera, from), 1, 2e-6)
                     << behind << " m behind, camera " << camera;
             }
 }
@@ -99,9 +99,9 @@ TEST(ReferenceShadowRays, EndAtTheLight) {
                     Scene before = wallScene(lampAt(distance)), behind = before;
                     addScreen(before, distance - gap, 0.2 * distance);
                     addScreen(behind, distance + gap, 0.2 * distance);
-                    EXPECT_EQ(litShare(before, camera, from), 0)
+                    EXPECT_EQ(litFraction(before, camera, from), 0)
                         << gap << " m before a light at " << distance;
-                    EXPECT_NEAR(litShare(behind, camera, from), 1, 2e-6)
+                    EXPECT_NEAR(litFraction(behind, camera, from), 1, 2e-6)
                         << gap << " m behind a light at " << distance;
                 }
 }
@@ -111,7 +111,7 @@ TEST(ReferenceShadowRays, ALampOnACeilingShines) {
     for (const double gap : {0.0, 1e-3}) {
         Scene scene = wallScene(lampAt(3));
         addScreen(scene, 3 - gap, 1);
-        EXPECT_NEAR(litShare(scene, 5, From::scene), gap == 0 ? 1 : 0, 2e-6) << gap;
+        EXPECT_NEAR(litFraction(scene, 5, From::scene), gap == 0 ? 1 : 0, 2e-6) << gap;
     }
 }
 
@@ -122,9 +122,9 @@ TEST(ReferenceShadowRays, OfTheSunAndOfAreasReachTheirLights) {
     sun.intensity = 1;
     for (const double along : {1e-3, 0.02, 1.0, 1000.0}) {
         Scene scene = wallScene(sun);
-        EXPECT_NEAR(litShare(scene, 10, From::scene), 1, 2e-6);
+        EXPECT_NEAR(litFraction(scene, 10, From::scene), 1, 2e-6);
         addScreen(scene, along, 0.3 * along);
-        EXPECT_EQ(litShare(scene, 10, From::scene), 0) << along;
+        EXPECT_EQ(litFraction(scene, 10, From::scene), 0) << along;
     }
     Light area = lightOf(LightKind::rect, toLight * 2.0, -toLight);
     area.width = area.height = 0.1f;
@@ -132,10 +132,10 @@ TEST(ReferenceShadowRays, OfTheSunAndOfAreasReachTheirLights) {
         Scene open = wallScene(area), before = open, behind = open;
         addScreen(before, 2 - gap, 0.5);
         addScreen(behind, 2 + gap, 0.5);
-        const double whole = litShare(open, 10, From::scene);
+        const double whole = litFraction(open, 10, From::scene);
         EXPECT_GT(whole, 1e-3);
-        EXPECT_EQ(litShare(before, 10, From::scene), 0) << gap;
-        EXPECT_NEAR(litShare(behind, 10, From::scene), whole, 1e-6 * whole) << gap;
+        EXPECT_EQ(litFraction(before, 10, From::scene), 0) << gap;
+        EXPECT_NEAR(litFraction(behind, 10, From::scene), whole, 1e-6 * whole) << gap;
     }
 }
 

@@ -74,7 +74,7 @@ TEST(Criterion, OfLitIsPixelsThatNothingExplains) {
         EXPECT_EQ(criterion.metric, "pixels unexplained");
         EXPECT_EQ(criterion.measured, explained ? 0 : 1);
         EXPECT_EQ(criterion.limit, 0);
-        EXPECT_EQ(criterion.share, explained ? 0 : 1) << "of one covered pixel";
+        EXPECT_EQ(criterion.fraction, explained ? 0 : 1) << "of one covered pixel";
         const auto json = nlohmann::json::parse(reportJson(report, nullptr));
         EXPECT_EQ(json["comparisons"][0]["channels"][0]["criterion"],
                   (nlohmann::json{{"figure", "pixels unexplained"},
@@ -106,7 +106,7 @@ TEST(Criterion, CountsThePixelsBeyond) {
     const ChannelDiff& metallic = channelIn(report, Channel::metallic);
     EXPECT_EQ(metallic.criterion->metric, "max");
     EXPECT_EQ(metallic.criterion->pixels, 1u);
-    EXPECT_EQ(metallic.criterion->share, 0.25);
+    EXPECT_EQ(metallic.criterion->fraction, 0.25);
     EXPECT_EQ(metallic.reason, "max 0.1 exceeds 0.001961 at 25 % of the pixels");
     const std::string junit = reportJunit(report, layoutOf(report, {}), "out");
     EXPECT_NE(junit.find("max 0.1 exceeds 0.001961 at 25 % of the pixels"), junit.npos) << junit;

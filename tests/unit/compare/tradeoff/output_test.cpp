@@ -222,7 +222,7 @@ TEST(TradeoffOutput, SeveralCamerasAreMeansAndSpreads) {
     made.cameras[1].blocks = {{4, 3, 10, 5}};
     made.cameras[1].measured.set(Measure::flip, Errors{0.25, 1, 0.5});
     made.cameras[1].measured.set(FrameBytes{5000, 0, 24});
-    made.cameras[1].measured.set(Measure::shaded, SampleShares{});
+    made.cameras[1].measured.set(Measure::shaded, SampleFractions{});
     joinBlocks(made.cameras[1]);
     joinCameras(made);
     EXPECT_DOUBLE_EQ(made[Measure::ms], 3);

@@ -25,17 +25,17 @@ Frame sampledRow(const std::vector<float>& lit, const std::vector<float>& shaded
     return frame;
 }
 
-TEST(TradeoffSamples, AreSharesOfThePixelsThatShowASurface) {
+TEST(TradeoffSamples, AreFractionsOfThePixelsThatShowASurface) {
     const Frame exact = sampledRow({1, 2, 3, 4, 0}, {1, 4, 2, 1, 0});
-    EXPECT_EQ(sampleSharesOf(exact, exact), (SampleShares{8.0 / 4, 0.5, 0, 0}));
+    EXPECT_EQ(sampleFractionsOf(exact, exact), (SampleFractions{8.0 / 4, 0.5, 0, 0}));
     // The second pixel differs with fewer shaded samples, the fourth with the same number.
     const Frame similar = sampledRow({1, 2.5f, 3, 5, 9}, {1, 2, 2, 1, 0});
-    EXPECT_EQ(sampleSharesOf(exact, similar), (SampleShares{6.0 / 4, 0.5, 0.5, 0.25}));
+    EXPECT_EQ(sampleFractionsOf(exact, similar), (SampleFractions{6.0 / 4, 0.5, 0.5, 0.25}));
     const Frame background = sampledRow({0}, {0});
-    EXPECT_EQ(sampleSharesOf(background, background), SampleShares{});
+    EXPECT_EQ(sampleFractionsOf(background, background), SampleFractions{});
     Frame without = exact;
     without.channels.erase(Channel::shaded_samples);
-    EXPECT_FALSE(sampleSharesOf(exact, without));
+    EXPECT_FALSE(sampleFractionsOf(exact, without));
 }
 
 TEST(TradeoffSamples, DeferredAloneChoosesThem) {
@@ -61,7 +61,7 @@ TEST(TradeoffSamples, TheTableHasTheRowsThatChoose) {
         row.settings.msaa_edges = edges;
         row.measured.set(FrameTime{12, 11, 13, 5});
         if (edges == MsaaEdges::similar)
-            row.measured.set(Measure::shaded, SampleShares{1.25, 0.125, 0.0625, 0});
+            row.measured.set(Measure::shaded, SampleFractions{1.25, 0.125, 0.0625, 0});
         tradeoff.rows.push_back(row);
     }
     const std::string text = inText(sampleBlocks(tradeoff)), html = inHtml(sampleBlocks(tradeoff));

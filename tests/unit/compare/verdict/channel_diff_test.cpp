@@ -36,8 +36,8 @@ TEST(ChannelDiff, PassesUpToItsToleranceAndNoFurther) {
         std::vector<Frame> frames = framesOf(mode);
         const double max = channelIn(comparedPair(frames), mode).tolerance.max;
         ASSERT_GT(max, 0) << debugMode(mode).name;
-        const auto verdictAt = [&](double share) {
-            frames[1].channels.at(mode).at(1, 2) = static_cast<float>(0.5 + share * max);
+        const auto verdictAt = [&](double fraction) {
+            frames[1].channels.at(mode).at(1, 2) = static_cast<float>(0.5 + fraction * max);
             const Comparison comparison = comparedPair(frames);
             EXPECT_EQ(comparison.passed(), channelIn(comparison, mode).verdict == Verdict::pass);
             return channelIn(comparison, mode).verdict;

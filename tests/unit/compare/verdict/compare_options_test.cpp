@@ -143,11 +143,11 @@ TEST(Measurement, NothingPassesANan) {
         EXPECT_EQ(decide(rule, same).level, Level::pass) << metric.name;
         EXPECT_EQ(decide(rule, one).level, Level::fail) << metric.name;
     }
-    Rule share;
-    share.fail = {Condition::Kind::bound, {"failing", 0}, 0.004, {}};
-    EXPECT_EQ(decide(share, one).level, Level::pass) << "1 of 256 pixels may fail";
-    share.fail.limit = 0.0039;
-    EXPECT_EQ(decide(share, one).level, Level::fail);
+    Rule fraction;
+    fraction.fail = {Condition::Kind::bound, {"failing", 0}, 0.004, {}};
+    EXPECT_EQ(decide(fraction, one).level, Level::pass) << "1 of 256 pixels may fail";
+    fraction.fail.limit = 0.0039;
+    EXPECT_EQ(decide(fraction, one).level, Level::fail);
 }
 
 }  // namespace

@@ -77,22 +77,22 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
     for (const float size : {1e-6f, 3.0f}) {
         const auto [relative, min] = radianceBound(gpu::EMISSION_MANTISSA_BITS);
         const double bound = std::max(size * relative, min);
-        for (const double share : {0.9, 1.1}) {
+        for (const double fraction : {0.9, 1.1}) {
             for (int c = 0; c < 3; ++c)
                 p.read(Channel::emission)[c] = p.own(Channel::emission)[c] = c == 2 ? size : 0;
-            p.read(Channel::emission)[0] = static_cast<float>(share * bound);
-            EXPECT_EQ(p.use(Channel::emission)->beyond, share > 1 ? 1u : 0u) << size << " " << share;
+            p.read(Channel::emission)[0] = static_cast<float>(fraction * bound);
+            EXPECT_EQ(p.use(Channel::emission)->beyond, fraction > 1 ? 1u : 0u) << size << " " << fraction;
         }
     }
     // Directions are compared by angle.
     const double angle = octahedralBound(gpu::STANDARD_NORMAL_BITS) / 180 * std::numbers::pi;
     for (const Channel mode : {Channel::normals, Channel::geometric_normal, Channel::clearcoat_normal})
-        for (const double share : {0.9, 1.1}) {
+        for (const double fraction : {0.9, 1.1}) {
             float *n = p.own(mode), *m = p.read(mode);
             n[0] = 1, n[1] = n[2] = 0;
-            m[0] = static_cast<float>(std::cos(share * angle)), m[1] = 0;
-            m[2] = static_cast<float>(std::sin(share * angle));
-            EXPECT_EQ(p.use(mode)->beyond, share > 1 ? 1u : 0u) << share;
+            m[0] = static_cast<float>(std::cos(fraction * angle)), m[1] = 0;
+            m[2] = static_cast<float>(std::sin(fraction * angle));
+            EXPECT_EQ(p.use(mode)->beyond, fraction > 1 ? 1u : 0u) << fraction;
         }
 }
 
@@ -102,9 +102,10 @@ TEST(EncodingUse, AFilmsIndexIsEvaluatedAtItsValue) {
         PackedPair p;
         const double bound = (n + 1) * (n + 1) / 2 * 0.5 / 510;
         *p.own(Channel::iridescence_ior) = static_cast<float>(n);
-        for (const double share : {0.9, 1.1}) {
-            *p.read(Channel::iridescence_ior) = static_cast<float>(n + share * bound);
-            EXPECT_EQ(p.use(Channel::iridescence_ior)->beyond, share > 1 ? 1u : 0u) << n << " " << share;
+        for (const double fraction : {0.9, 1.1}) {
+            *p.read(Channel::iridescence_ior) = static_cast<float>(n + fraction * bound);
+            EXPECT_EQ(p.use(Channel::iridescence_ior)->beyond, fraction > 1 ? 1u : 0u)
+                << n << " " << fraction;
         }
     }
 }
@@ -114,10 +115,10 @@ TEST(EncodingUse, AFilmsThicknessIsEvaluatedRelativeToIt) {
         PackedPair p;
         const double bound = std::max(thickness * 0x1p-11, 0x1p-25);
         *p.own(Channel::iridescence_thickness) = static_cast<float>(thickness);
-        for (const double share : {0.9, 1.1}) {
-            *p.read(Channel::iridescence_thickness) = static_cast<float>(thickness + share * bound);
-            EXPECT_EQ(p.use(Channel::iridescence_thickness)->beyond, share > 1 ? 1u : 0u)
-                << thickness << " " << share;
+        for (const double fraction : {0.9, 1.1}) {
+            *p.read(Channel::iridescence_thickness) = static_cast<float>(thickness + fraction * bound);
+            EXPECT_EQ(p.use(Channel::iridescence_thickness)->beyond, fraction > 1 ? 1u : 0u)
+                << thickness << " " << fraction;
         }
     }
 }
@@ -129,9 +130,9 @@ TEST(EncodingUse, ADarkSheenHasANarrowBound) {
         PackedPair p;
         const double bound = h * (2 * std::sqrt(x) + h);
         p.own(Channel::sheen_color)[2] = static_cast<float>(x);
-        for (const double share : {0.9, 1.1}) {
-            p.read(Channel::sheen_color)[2] = static_cast<float>(x + share * bound);
-            EXPECT_EQ(p.use(Channel::sheen_color)->beyond, share > 1 ? 1u : 0u) << x << " " << share;
+        for (const double fraction : {0.9, 1.1}) {
+            p.read(Channel::sheen_color)[2] = static_cast<float>(x + fraction * bound);
+            EXPECT_EQ(p.use(Channel::sheen_color)->beyond, fraction > 1 ? 1u : 0u) << x << " " << fraction;
         }
     }
 }
@@ -144,10 +145,11 @@ TEST(EncodingUse, ALineIsEvaluatedWithoutItsSign) {
     float *d = p.own(Channel::anisotropy_direction), *e = p.read(Channel::anisotropy_direction);
     d[0] = 1, d[1] = d[2] = 0;
     for (const float sign : {1.0f, -1.0f})
-        for (const double share : {0.9, 1.1}) {
-            e[0] = sign * static_cast<float>(std::cos(share * angle)), e[1] = 0;
-            e[2] = sign * static_cast<float>(std::sin(share * angle));
-            EXPECT_EQ(p.use(Channel::anisotropy_direction)->beyond, share > 1 ? 1u : 0u) << sign << share;
+        for (const double fraction : {0.9, 1.1}) {
+            e[0] = sign * static_cast<float>(std::cos(fraction * angle)), e[1] = 0;
+            e[2] = sign * static_cast<float>(std::sin(fraction * angle));
+            EXPECT_EQ(p.use(Channel::anisotropy_direction)->beyond, fraction > 1 ? 1u : 0u)
+                << sign << fraction;
         }
     EXPECT_TRUE(p.report({Channel::anisotropy}).passed());
 }

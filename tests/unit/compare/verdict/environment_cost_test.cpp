@@ -39,16 +39,17 @@ TEST(EnvironmentCost, IsThatOfThePathsSettings) {
     EvaluatedPair p;
     const double spread = 4 * std::numbers::pi / 64;
     EXPECT_EQ(p.allowed(Channel::lit_diffuse), 1);
-    EXPECT_NEAR(p.allowed(Channel::lit_specular), 10 + spread * 1000 + filteredShare * 10000, 1e-9);
-    EXPECT_NEAR(p.allowed(Channel::lit), 1 + 10 + spread * 1000 + filteredShare * 10000, 1e-9);
+    EXPECT_NEAR(p.allowed(Channel::lit_specular), 10 + spread * 1000 + filteredFraction * 10000, 1e-9);
+    EXPECT_NEAR(p.allowed(Channel::lit), 1 + 10 + spread * 1000 + filteredFraction * 10000, 1e-9);
     EXPECT_EQ(p.allowed(Channel::lit_ambient), 0);
     EXPECT_EQ(p.allowed(Channel::albedo), 0);
     p.path.settings.ibl_diffuse = IblDiffuse::map;
     p.path.settings.ibl_bias = 1;
     EXPECT_EQ(p.allowed(Channel::lit_diffuse), 3);
-    EXPECT_NEAR(p.allowed(Channel::lit_specular), 30 + 4 * spread * 1000 + filteredShare * 10000, 1e-9);
+    EXPECT_NEAR(p.allowed(Channel::lit_specular), 30 + 4 * spread * 1000 + filteredFraction * 10000, 1e-9);
     p.path.settings.ibl = Ibl::sampled;
-    EXPECT_NEAR(p.allowed(Channel::lit_specular), 100 + 4 * spread * 1000 + sampledShare / 8 * 10000, 1e-9);
+    EXPECT_NEAR(p.allowed(Channel::lit_specular), 100 + 4 * spread * 1000 + sampledFraction / 8 * 10000,
+                1e-9);
     EXPECT_EQ(p.because(Channel::lit_ambient), "");
     EXPECT_NE(p.because(Channel::lit_specular).find("64 samples"), std::string::npos);
     EXPECT_NE(p.because(Channel::lit_diffuse).find("a map"), std::string::npos);

@@ -241,7 +241,7 @@ TEST(Footprint, LightIsHeldTightlyWhateverIsCompared) {
     EXPECT_EQ(evaluated(frames, Channel::lit).verdict, Verdict::fail) << "neither has albedo";
     frames[0].channels.erase(Channel::metallic);
     const ChannelDiff loose = evaluated(frames, Channel::lit);
-    EXPECT_EQ(loose.footprints->closeShare(), 0);
+    EXPECT_EQ(loose.footprints->closeFraction(), 0);
     EXPECT_EQ(loose.verdict, Verdict::pass);
     Report report;
     report.device = {"a CPU", "1.0", "cpu"};
@@ -305,13 +305,13 @@ TEST(Footprint, TexelsOfASheenAndAFilmAreGranted) {
     for (const auto& [mode, code] : {std::pair{Channel::sheen_color, 0.006f},
                                      {Channel::sheen_roughness, 1.0f / 255},
                                      {Channel::iridescence, 1.0f / 255}})
-        for (const float share : {0.8f, 2.0f}) {
+        for (const float fraction : {0.8f, 2.0f}) {
             std::vector<Frame> frames = evenFrames();
-            for (float& v : channelIn(frames[1], mode).data) v = 0.5f + share * code;
+            for (float& v : channelIn(frames[1], mode).data) v = 0.5f + fraction * code;
             EXPECT_EQ(evaluated(frames, mode).verdict, Verdict::fail)
                 << debugMode(mode).name << " without texels";
-            EXPECT_EQ(evaluated(frames, mode, options).verdict, share < 1 ? Verdict::pass : Verdict::fail)
-                << debugMode(mode).name << " " << share;
+            EXPECT_EQ(evaluated(frames, mode, options).verdict, fraction < 1 ? Verdict::pass : Verdict::fail)
+                << debugMode(mode).name << " " << fraction;
         }
 }
 

@@ -158,7 +158,7 @@ TEST(Metrics, FlipIsToldItsOptions) {
 }
 
 // A fraction of failing pixels: an error equal to the bound passes.
-TEST(Metrics, AShareIsOfTheCountedPixelsBeyond) {
+TEST(Metrics, AFractionIsOfTheCountedPixelsBeyond) {
     const Spread s = spread();
     const Measurement m({ErrorKind::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered});
     for (const std::size_t i : {std::size_t{0}, std::size_t{1000}, counted - 2, counted - 1})

@@ -97,7 +97,7 @@ TEST(Rules, WhatIsNanOrNotDefinedNeverHolds) {
     EXPECT_EQ(decide(rule, of({})).reason, "flip is not defined for this channel");
 }
 
-TEST(Rules, AShareOfPixelsMayFail) {
+TEST(Rules, AFractionOfPixelsMayFail) {
     const Rule rule = onlyRule(
         {{"channel", "lit"}, {"failing", {{"above", 0.02}, {"share", 0.001}}}, {"because", "5 of 255"}});
     EXPECT_EQ(rule.fail.quantity.metric, "failing");

@@ -271,11 +271,12 @@ TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
         p.cpu = true;
         EXPECT_EQ(derivedTolerance(mode, p.pair()).max, 0) << mode.name;
         p.cpu = false;
-        const double share = 16 * 0x1p-23, expected = mode.error_kind == ErrorKind::relative   ? share
-                                                      : mode.error_kind == ErrorKind::absolute ? 0.5 * share
-                                                      : isAngle(mode.error_kind)
-                                                          ? std::sqrt(3.0) * share * 180 / std::numbers::pi
-                                                          : 0;
+        const double fraction = 16 * 0x1p-23,
+                     expected = mode.error_kind == ErrorKind::relative   ? fraction
+                                : mode.error_kind == ErrorKind::absolute ? 0.5 * fraction
+                                : isAngle(mode.error_kind)
+                                    ? std::sqrt(3.0) * fraction * 180 / std::numbers::pi
+                                    : 0;
         EXPECT_DOUBLE_EQ(derivedTolerance(mode, p.pair()).max, expected) << mode.name;
     }
 }

@@ -133,8 +133,8 @@ TEST(VisibleClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
         const glm::dvec3 edge = glm::normalize(at[1] - at[0]), up = glm::normalize(normal),
                          along = std::cos(turn) * edge + std::sin(turn) * glm::cross(up, edge);
         const double away = std::exp(1.6 + 0.5 * part(random)),
-                     share = std::pow(10.0, -3 + 1.5 * part(random)) * (round % 2 == 0 ? 1 : -1);
-        const glm::dvec3 eye = at[round % 3] + away * (along + share * up);
+                     fraction = std::pow(10.0, -3 + 1.5 * part(random)) * (round % 2 == 0 ? 1 : -1);
+        const glm::dvec3 eye = at[round % 3] + away * (along + fraction * up);
         const glm::dmat4 clip = clipOf(grid, eye, {0, 0, 0}, 0.9, 0.05, round % 8 == 5) * placed;
         const Counts counts =
             expectNothingShownIsLeftOut(ball, grid, clip, mirrored, true, fmt::format("round {}", round));

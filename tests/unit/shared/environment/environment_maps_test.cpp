@@ -97,7 +97,7 @@ TEST(EnvironmentMaps, RadianceIsWhatTheReferenceReads) {
 }
 
 // A pixel's solid angle is the integral's change with it: the first harmonic is linear in the pixel.
-TEST(EnvironmentMaps, SolidAnglesAreTheShares) {
+TEST(EnvironmentMaps, SolidAnglesAreTheFractions) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {4, 3}, {16, 8}}) {
         Environment sky = constantSky(0, size.x, size.y);
         const std::vector<double> solid = LatLong(sky).solidAngles();
@@ -271,9 +271,9 @@ double meanOfMap(const NodeMap& map) {
         for (int x = 0; x < map.side; ++x) {
             const glm::dvec3 d(octahedralDirection(map.placeOf(x, y)));
             const double l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z),
-                         share = l1 * l1 * l1 * edge(x) * edge(y);
-            sum += double{map.at(x, y)[0]} * share;
-            solid += share;
+                         fraction = l1 * l1 * l1 * edge(x) * edge(y);
+            sum += double{map.at(x, y)[0]} * fraction;
+            solid += fraction;
         }
     return sum / solid;
 }

@@ -98,7 +98,7 @@ TEST(Haze, TheSunIsDimmedByTheAirAboveTheCameraOrAboveEachPlace) {
         settings.haze_mie_height = settings.haze_rayleigh_height = 1000;
         const reference::Air air = airOfSettings(settings, &sun);
         const glm::dvec3 all = air.molecules.extinction + air.aerosols.extinction;
-        const auto share = [&](double height) {
+        const auto fraction = [&](double height) {
             return glm::exp(-all * (1000 * std::exp(-height / 1000) * std::sqrt(2.0)));
         };
         // Two short rays (the direction to the sun is float32): the second starts higher but has the same
@@ -107,7 +107,7 @@ TEST(Haze, TheSunIsDimmedByTheAirAboveTheCameraOrAboveEachPlace) {
         const glm::dvec3 low = haze.along({0, 0, 0}, {1, 0, 0}, 1e-3).scattered,
                          high = haze.along({0, 700, 0}, {1, 0, 0}, 1e-3).scattered;
         const glm::dvec3 expected =
-            steps == 0 ? glm::dvec3(std::exp(-0.7)) : std::exp(-0.7) * share(1200) / share(500);
+            steps == 0 ? glm::dvec3(std::exp(-0.7)) : std::exp(-0.7) * fraction(1200) / fraction(500);
         expectNear(high / low, expected, 1e-7, steps == 0 ? "one sun" : "each place's");
     }
 }

@@ -115,8 +115,8 @@ TEST(ImageRows, RanksAreThoseOfTheSortedErrors) {
             for (std::size_t i = 0; i < a.pixels(); ++i)
                 if (covered.covered[i]) all.push_back(error(b.pixel(i), a.pixel(i)));
             std::ranges::sort(all);
-            const auto at = [&](double share) {
-                const auto rank = std::ceil(share * static_cast<double>(all.size()));
+            const auto at = [&](double fraction) {
+                const auto rank = std::ceil(fraction * static_cast<double>(all.size()));
                 return all[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
             };
             const ChannelStats stats = channelStats(errorKind, ChannelKind::color, a, b, covered);

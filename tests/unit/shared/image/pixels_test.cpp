@@ -14,7 +14,7 @@ namespace diptych {
 namespace {
 
 // Fraction of the image's pages that are resident in memory.
-double residentShare(const Image& image) {
+double residentFraction(const Image& image) {
     std::ifstream maps("/proc/self/smaps");
     const auto begin = reinterpret_cast<std::uintptr_t>(image.data.data());
     std::string word;
@@ -38,9 +38,9 @@ TEST(Pixels, KeptInAFileTheyStayWhatAndWhereTheyAre) {
     keepInFile(image.data);
     EXPECT_EQ(image.data.data(), place);
     EXPECT_EQ(image.data, before.data);
-    EXPECT_GT(residentShare(image), 0.99);
+    EXPECT_GT(residentFraction(image), 0.99);
     letGo(image.data);
-    EXPECT_LT(residentShare(image), 0.01);
+    EXPECT_LT(residentFraction(image), 0.01);
     EXPECT_EQ(image.data, before.data);
     const Image copy = image, moved = std::move(image);
     EXPECT_EQ(moved.data.data(), place);

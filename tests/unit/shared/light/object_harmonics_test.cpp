@@ -203,23 +203,23 @@ TEST(PerObject, TheGroupsShareEachLight) {
     for (unsigned round = 0; round < 60; ++round) {
         const GpuLights all = fromEye(mixedLights(round, 30, 6));
         for (const std::uint32_t pixels : {0u, 2u, 4u, 8u, 40u}) {
-            const std::vector<LightShares> shares = lightShares(all, unitBox, pixels);
+            const std::vector<LightFractions> fractions = lightFractions(all, unitBox, pixels);
             const ObjectLightLists lists = objectLightLists(all, std::span(&unitBox, 1), pixels);
             const gpu::ObjectLights& object = lists.objects[0];
-            ASSERT_EQ(shares.size(), all.count());
+            ASSERT_EQ(fractions.size(), all.count());
             std::vector<double> listed(all.count());
             for (gpu::uint i = object.begin; i < object.vertex_end; ++i) {
                 const gpu::ObjectLight& entry = lists.entries[i];
-                const LightShares& s = shares[entry.light];
+                const LightFractions& s = fractions[entry.light];
                 EXPECT_EQ(entry.weight, static_cast<float>(i < object.area_end ? s.pixel : s.vertex));
                 listed[entry.light] += double{entry.weight};
             }
             for (std::size_t i = 0; i < all.count(); ++i) {
-                const LightShares& s = shares[i];
-                for (const double share : {s.pixel, s.vertex, s.harmonics}) {
-                    EXPECT_GE(share, 0);
-                    EXPECT_LE(share, 1);
-                    broken += share > 0 && share < 1;
+                const LightFractions& s = fractions[i];
+                for (const double fraction : {s.pixel, s.vertex, s.harmonics}) {
+                    EXPECT_GE(fraction, 0);
+                    EXPECT_LE(fraction, 1);
+                    broken += fraction > 0 && fraction < 1;
                 }
                 const bool reaches = brightnessAt(all, i, unitBox) > 0;
                 dark += !reaches;
@@ -240,35 +240,35 @@ TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
     for (const auto& [pixels, falloff] :
          {std::pair(0u, LightFalloff{}), {3u, LightFalloff{}}, {0u, LightFalloff{true, true}}}) {
         const GpuLights all = fromEye(mixedLights(17, 30, 4), falloff);
-        const std::vector<LightShares> shares = lightShares(all, box, pixels);
+        const std::vector<LightFractions> fractions = lightFractions(all, box, pixels);
         const ObjectLightLists lists = objectLightLists(all, std::span(&box, 1), pixels);
         const gpu::ObjectIrradiance& found = lists.objects[0].irradiance;
         double broken = 0;
-        for (const LightShares& s : shares) broken += s.harmonics > 0 && s.harmonics < 1;
+        for (const LightFractions& s : fractions) broken += s.harmonics > 0 && s.harmonics < 1;
         EXPECT_GE(broken, 2);
         std::vector<Arriving> lights;
         for (std::size_t i = 0; i < all.count(); ++i) lights.push_back(arriving(all, i));
-        const auto sumOf = [&](const glm::dvec3& n, const auto& share) {
+        const auto sumOf = [&](const glm::dvec3& n, const auto& fraction) {
             glm::dvec3 sum(0);
             for (std::size_t i = 0; i < lights.size(); ++i)
                 sum += lights[i].irradiance *
-                       (share(shares[i]) * std::max(glm::dot(n, lights[i].to_light), 0.0));
+                       (fraction(fractions[i]) * std::max(glm::dot(n, lights[i].to_light), 0.0));
             return sum;
         };
-        const auto rest = [](const LightShares& s) { return s.harmonics; };
+        const auto rest = [](const LightFractions& s) { return s.harmonics; };
         const Coefficients expected = projected([&](const glm::dvec3& n) { return sumOf(n, rest); }, 250);
         double all_of_rest = 0;
         for (std::size_t i = 0; i < lights.size(); ++i)
-            all_of_rest += shares[i].harmonics * lights[i].irradiance.g;
+            all_of_rest += fractions[i].harmonics * lights[i].irradiance.g;
         ASSERT_GT(all_of_rest, 0.1);
         for (int i = 0; i < 60; ++i) {
             const glm::dvec3 n = direction(std::cos(0.1 * i), 2.3 * i);
             // 3e-4 for 250 x 250 directions and float32.
             EXPECT_NEAR(glm::length(evaluatedRgb(found, n) - evaluatedAt(expected, n)), 0, 3e-4 * all_of_rest)
                 << i;
-            const double listed = sumOf(n, [](const LightShares& s) { return s.pixel + s.vertex; }).g;
+            const double listed = sumOf(n, [](const LightFractions& s) { return s.pixel + s.vertex; }).g;
             const double every =
-                sumOf(n, [](const LightShares& s) { return s.pixel + s.vertex + s.harmonics; }).g;
+                sumOf(n, [](const LightFractions& s) { return s.pixel + s.vertex + s.harmonics; }).g;
             EXPECT_NEAR(listed + evaluated(found, n), every, (3.0 / 32 + 1e-4) * all_of_rest);
         }
     }

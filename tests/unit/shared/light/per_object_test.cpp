@@ -85,16 +85,16 @@ TEST(PerObject, NoLightThatReachesIsDark) {
             const glm::vec3 to_light = lights.lights[0].position - place;
             const float d2 = glm::dot(to_light, to_light), x = d2 * lights.lights[0].inverse_range_squared;
             bool here = x < 1;
-            double share = here ? std::pow(1 - double{x} * double{x}, falloff.squared_window ? 2 : 1) : 0;
+            double fraction = here ? std::pow(1 - double{x} * double{x}, falloff.squared_window ? 2 : 1) : 0;
             if (light.kind == LightKind::spot) {
                 const gpu::SpotCone& cone = lights.spot_cones[0];
                 const float c = cone.offset - glm::dot(to_light / std::sqrt(d2), cone.direction) * cone.scale;
                 here &= c > 0;
                 const double t = std::clamp(double{c}, 0.0, 1.0);
-                share *= falloff.smooth_cones ? t * t * (3 - 2 * t) : t * t;
+                fraction *= falloff.smooth_cones ? t * t * (3 - 2 * t) : t * t;
             }
             reached |= here;
-            EXPECT_GE(brightness, endless * share) << round;
+            EXPECT_GE(brightness, endless * fraction) << round;
         }
         EXPECT_TRUE(found || !reached) << round;
         (found ? lit : dark) += 1;
@@ -129,11 +129,11 @@ std::vector<Light> row(std::size_t count) {
 TEST(PerObject, TheBrightestArePerPixelTheNextPerVertexTheRestHarmonics) {
     // Each light is four times fainter than the previous one and further away, so the groups have whole
     // lights.
-    const std::vector<LightShares> shares = lightShares(fromEye(row(12)), unitBox, 3);
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        EXPECT_NEAR(shares[i].pixel + shares[i].vertex + shares[i].harmonics, 1, 1e-15);
-        EXPECT_EQ(shares[i].pixel, i < 3 ? 1 : 0) << i;
-        EXPECT_EQ(shares[i].vertex, i >= 3 && i < 7 ? 1 : 0) << i;
+    const std::vector<LightFractions> fractions = lightFractions(fromEye(row(12)), unitBox, 3);
+    for (std::size_t i = 0; i < fractions.size(); ++i) {
+        EXPECT_NEAR(fractions[i].pixel + fractions[i].vertex + fractions[i].harmonics, 1, 1e-15);
+        EXPECT_EQ(fractions[i].pixel, i < 3 ? 1 : 0) << i;
+        EXPECT_EQ(fractions[i].vertex, i >= 3 && i < 7 ? 1 : 0) << i;
     }
 }
 
@@ -172,7 +172,7 @@ TEST(PerObject, NeverMoreThanThereIsRoomFor) {
             lights.push_back(point({9 * unit(random), 9 * unit(random), 9 * unit(random)}, 1));
         for (const std::uint32_t pixels : {0u, 1u, 4u, 8u}) {
             std::size_t perPixel = 0, beyond = 0;
-            for (const LightShares& s : lightShares(fromEye(lights), unitBox, pixels)) {
+            for (const LightFractions& s : lightFractions(fromEye(lights), unitBox, pixels)) {
                 perPixel += s.pixel > 0;
                 beyond += s.pixel == 0 && s.vertex > 0;
                 EXPECT_GE(s.vertex, 0);
@@ -188,7 +188,7 @@ TEST(PerObject, NeverMoreThanThereIsRoomFor) {
 // At most 0.05: a step changes the closest light's brightness by up to 3 %, and the fade's steepest slope
 // is 1.5 over ln 4.
 TEST(PerObject, NothingPopsAsALightMoves) {
-    std::vector<LightShares> before;
+    std::vector<LightFractions> before;
     std::vector<double> dark;
     double largest = 0, moved = 0;
     for (int step = 0; step <= 1600; ++step) {
@@ -199,18 +199,20 @@ TEST(PerObject, NothingPopsAsALightMoves) {
         Light strongest = sun(0.2f);
         lights.push_back(strongest);
         const GpuLights all = fromEye(lights);
-        const std::vector<LightShares> shares = lightShares(all, unitBox, 3);
+        const std::vector<LightFractions> fractions = lightFractions(all, unitBox, 3);
         for (std::size_t i = 0; i < before.size(); ++i) {
             const double brightness = brightnessAt(all, i, unitBox);
             // Very faint lights may change their group: at the end of its range a light contributes
             // nothing.
             if (brightness < 1e-3) continue;
-            for (const auto share : {&LightShares::pixel, &LightShares::vertex, &LightShares::harmonics}) {
-                largest = std::max(largest, std::abs(shares[i].*share - before[i].*share));
-                moved = std::max(moved, std::abs(shares[i].*share - lightShares(all, unitBox, 12)[i].*share));
+            for (const auto fraction :
+                 {&LightFractions::pixel, &LightFractions::vertex, &LightFractions::harmonics}) {
+                largest = std::max(largest, std::abs(fractions[i].*fraction - before[i].*fraction));
+                moved = std::max(
+                    moved, std::abs(fractions[i].*fraction - lightFractions(all, unitBox, 12)[i].*fraction));
             }
         }
-        before = shares;
+        before = fractions;
     }
     EXPECT_LE(largest, 0.05);
     EXPECT_GT(moved, 0.5) << "lights do change their group";
@@ -220,15 +222,15 @@ TEST(PerObject, ImportanceOverridesTheRanking) {
     std::vector<Light> lights = row(12);
     lights[0].importance = Importance::not_important;
     lights[11].importance = Importance::important;
-    const std::vector<LightShares> shares = lightShares(fromEye(lights), unitBox, 2);
-    EXPECT_EQ(shares[0].pixel, 0) << "the brightest";
-    EXPECT_EQ(shares[0].vertex, 1);
-    EXPECT_EQ(shares[11].pixel, 1) << "the faintest";
-    EXPECT_EQ(shares[1].pixel, 1);
-    EXPECT_EQ(shares[2].pixel, 1) << "the important one takes no other light's place";
-    EXPECT_EQ(shares[3].pixel, 0);
+    const std::vector<LightFractions> fractions = lightFractions(fromEye(lights), unitBox, 2);
+    EXPECT_EQ(fractions[0].pixel, 0) << "the brightest";
+    EXPECT_EQ(fractions[0].vertex, 1);
+    EXPECT_EQ(fractions[11].pixel, 1) << "the faintest";
+    EXPECT_EQ(fractions[1].pixel, 1);
+    EXPECT_EQ(fractions[2].pixel, 1) << "the important one takes no other light's place";
+    EXPECT_EQ(fractions[3].pixel, 0);
     lights[11].range = 1;
-    EXPECT_EQ(lightShares(fromEye(lights), unitBox, 2)[11].pixel, 0) << "but it must reach";
+    EXPECT_EQ(lightFractions(fromEye(lights), unitBox, 2)[11].pixel, 0) << "but it must reach";
 }
 
 // Lights are sorted by type and dark ones are omitted: each must keep its own importance.
@@ -249,13 +251,13 @@ TEST(PerObject, ImportanceStaysWithItsLight) {
               (std::vector{Importance::important, Importance::automatic, Importance::automatic,
                            Importance::not_important, Importance::important}))
         << "two suns, the lamp, the spot, the panel";
-    const std::vector<LightShares> shares = lightShares(all, unitBox, 1);
-    EXPECT_EQ(shares[0].pixel, 1) << "a faint sun that is important";
-    EXPECT_EQ(shares[1].pixel, 1) << "the base";
-    EXPECT_EQ(shares[2].pixel, 1) << "the one that there is room for";
-    EXPECT_EQ(shares[3].pixel, 0) << "not important, however bright";
-    EXPECT_EQ(shares[3].vertex, 1);
-    EXPECT_EQ(shares[4].pixel, 1) << "an important panel";
+    const std::vector<LightFractions> fractions = lightFractions(all, unitBox, 1);
+    EXPECT_EQ(fractions[0].pixel, 1) << "a faint sun that is important";
+    EXPECT_EQ(fractions[1].pixel, 1) << "the base";
+    EXPECT_EQ(fractions[2].pixel, 1) << "the one that there is room for";
+    EXPECT_EQ(fractions[3].pixel, 0) << "not important, however bright";
+    EXPECT_EQ(fractions[3].vertex, 1);
+    EXPECT_EQ(fractions[4].pixel, 1) << "an important panel";
     // In the objects' lists, in the order of the lights.
     const ObjectLightLists lists = objectLightLists(all, std::span(&unitBox, 1), 1);
     std::vector<gpu::uint> perPixel;
@@ -282,20 +284,20 @@ TEST(PerObject, ImportanceHoldsForAnyLights) {
         }
         for (const std::uint32_t pixels : {0u, 1u, 4u, 24u}) {
             const GpuLights all = fromEye(lights);
-            const std::vector<LightShares> shares = lightShares(all, unitBox, pixels),
-                                           without = lightShares(fromEye(unmarked), unitBox, pixels);
+            const std::vector<LightFractions> fractions = lightFractions(all, unitBox, pixels),
+                                              without = lightFractions(fromEye(unmarked), unitBox, pixels);
             for (std::size_t i = 0, other = 0; i < lights.size(); ++i) {
                 const bool reaches = brightnessAt(all, i, unitBox) > 0;
                 if (lights[i].importance == Importance::important) {
-                    EXPECT_EQ(shares[i].pixel, reaches ? 1 : 0);
+                    EXPECT_EQ(fractions[i].pixel, reaches ? 1 : 0);
                     continue;
                 }
                 if (lights[i].importance == Importance::not_important) {
-                    EXPECT_EQ(shares[i].pixel, 0);
+                    EXPECT_EQ(fractions[i].pixel, 0);
                 }
-                EXPECT_EQ(shares[i].pixel, without[other].pixel);
-                EXPECT_EQ(shares[i].vertex, without[other].vertex);
-                EXPECT_EQ(shares[i].harmonics, without[other++].harmonics);
+                EXPECT_EQ(fractions[i].pixel, without[other].pixel);
+                EXPECT_EQ(fractions[i].vertex, without[other].vertex);
+                EXPECT_EQ(fractions[i].harmonics, without[other++].harmonics);
             }
         }
     }
@@ -311,8 +313,8 @@ TEST(PerObject, AreaLightsArePerPixelOrHarmonics) {
     std::vector<Light> lights = row(3);
     lights.push_back(panel);
     const GpuLights all = fromEye(lights);
-    EXPECT_EQ(lightShares(all, unitBox, 4)[3].pixel, 1);
-    const LightShares faint = lightShares(all, unitBox, 1)[3];
+    EXPECT_EQ(lightFractions(all, unitBox, 4)[3].pixel, 1);
+    const LightFractions faint = lightFractions(all, unitBox, 1)[3];
     EXPECT_EQ(faint.pixel, 0);
     EXPECT_EQ(faint.vertex, 0);
     EXPECT_EQ(faint.harmonics, 1);
@@ -331,18 +333,18 @@ TEST(PerObject, TheBaseIsTheBrightestDirectionalLight) {
     std::vector<Light> lights = row(6);
     lights.push_back(sun(1e-3f));
     lights.push_back(sun(1e-5f));
-    const std::vector<LightShares> shares = lightShares(fromEye(lights), unitBox, 0);
-    EXPECT_EQ(shares[0].pixel, 1) << "directional lights come first";
-    EXPECT_EQ(shares[1].pixel, 0);
-    for (std::size_t i = 2; i < 8; ++i) EXPECT_EQ(shares[i].pixel, 0);
+    const std::vector<LightFractions> fractions = lightFractions(fromEye(lights), unitBox, 0);
+    EXPECT_EQ(fractions[0].pixel, 1) << "directional lights come first";
+    EXPECT_EQ(fractions[1].pixel, 0);
+    for (std::size_t i = 2; i < 8; ++i) EXPECT_EQ(fractions[i].pixel, 0);
     lights[6].importance = Importance::not_important;
-    EXPECT_EQ(lightShares(fromEye(lights), unitBox, 0)[0].pixel, 0);
-    EXPECT_EQ(lightShares(fromEye(lights), unitBox, 0)[1].pixel, 1) << "then the next one is the base";
+    EXPECT_EQ(lightFractions(fromEye(lights), unitBox, 0)[0].pixel, 0);
+    EXPECT_EQ(lightFractions(fromEye(lights), unitBox, 0)[1].pixel, 1) << "then the next one is the base";
     // A shadow-casting sun is the base whatever its importance, and no other sun is a base beside it.
     GpuLights casting = fromEye(lights);
     casting.base = 0;
-    EXPECT_EQ(lightShares(casting, unitBox, 0)[0].pixel, 1);
-    EXPECT_EQ(lightShares(casting, unitBox, 0)[1].pixel, 0);
+    EXPECT_EQ(lightFractions(casting, unitBox, 0)[0].pixel, 1);
+    EXPECT_EQ(lightFractions(casting, unitBox, 0)[1].pixel, 0);
 }
 
 // The base has no share per vertex or in harmonics, even beside equally bright suns.
@@ -355,9 +357,9 @@ TEST(PerObject, TheBaseIsWholeBesideSunsAsBright) {
             const GpuLights all = fromEye(lights);
             const std::size_t base = second < 1 ? 1 : 0;
             EXPECT_EQ(all.base, base) << second;
-            const std::vector<LightShares> shares = lightShares(all, unitBox, pixels);
-            EXPECT_EQ(shares[base].pixel, 1) << second << " " << pixels;
-            EXPECT_EQ(shares[1 - base].pixel, 0) << "the next has no place of its own";
+            const std::vector<LightFractions> fractions = lightFractions(all, unitBox, pixels);
+            EXPECT_EQ(fractions[base].pixel, 1) << second << " " << pixels;
+            EXPECT_EQ(fractions[1 - base].pixel, 0) << "the next has no place of its own";
         }
 }
 
@@ -366,11 +368,11 @@ TEST(PerObject, EqualLightsAreRankedByTheScenesOrder) {
     std::vector<Light> suns(64, sun(2)), lamps(64, point({0, 3, 4}, 5));
     for (const std::vector<Light>& lights : {suns, lamps})
         for (const std::uint32_t pixels : {1u, 4u, 9u}) {
-            const std::vector<LightShares> shares = lightShares(fromEye(lights), unitBox, pixels);
-            for (std::size_t i = 0; i < shares.size(); ++i) {
-                EXPECT_EQ(shares[i].pixel, i < pixels ? 1 : 0) << i;
-                EXPECT_EQ(shares[i].vertex, i >= pixels && i < pixels + 4 ? 1 : 0) << i;
-                EXPECT_EQ(shares[i].harmonics, i >= pixels + 4 ? 1 : 0) << i;
+            const std::vector<LightFractions> fractions = lightFractions(fromEye(lights), unitBox, pixels);
+            for (std::size_t i = 0; i < fractions.size(); ++i) {
+                EXPECT_EQ(fractions[i].pixel, i < pixels ? 1 : 0) << i;
+                EXPECT_EQ(fractions[i].vertex, i >= pixels && i < pixels + 4 ? 1 : 0) << i;
+                EXPECT_EQ(fractions[i].harmonics, i >= pixels + 4 ? 1 : 0) << i;
             }
         }
     // A spot light before equally bright point lights: types are sorted, ranks are not.
@@ -383,33 +385,34 @@ TEST(PerObject, EqualLightsAreRankedByTheScenesOrder) {
     const GpuLights all = fromEye(mixed);
     ASSERT_EQ(all.sources, (std::vector<std::size_t>{1, 2, 3, 0}));
     ASSERT_EQ(brightnessAt(all, 0, unitBox), brightnessAt(all, 3, unitBox));
-    const std::vector<LightShares> shares = lightShares(all, unitBox, 2);
-    EXPECT_EQ(shares[3].pixel, 1);
-    EXPECT_EQ(shares[0].pixel, 1);
-    EXPECT_EQ(shares[1].pixel, 0);
-    EXPECT_EQ(shares[2].pixel, 0);
+    const std::vector<LightFractions> fractions = lightFractions(all, unitBox, 2);
+    EXPECT_EQ(fractions[3].pixel, 1);
+    EXPECT_EQ(fractions[0].pixel, 1);
+    EXPECT_EQ(fractions[1].pixel, 0);
+    EXPECT_EQ(fractions[2].pixel, 0);
 }
 
 // A light that becomes brighter than several equal ones replaces the last of them gradually.
 TEST(PerObject, EqualLightsMakeRoomWithoutAPop) {
-    std::vector<LightShares> before;
+    std::vector<LightFractions> before;
     double largest = 0, min = 1;
     for (double candela = 0.5; candela < 12; candela *= 1.003) {
         std::vector<Light> lights(8, sun(1));
         lights.push_back(point({0, 0, 2}, static_cast<float>(candela)));
         const GpuLights all = fromEye(lights);
-        const std::vector<LightShares> shares = lightShares(all, unitBox, 3);
+        const std::vector<LightFractions> fractions = lightFractions(all, unitBox, 3);
         double sum = 0;
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            sum += shares[i].pixel;
+        for (std::size_t i = 0; i < fractions.size(); ++i) {
+            sum += fractions[i].pixel;
             if (before.empty()) continue;
-            for (const auto share : {&LightShares::pixel, &LightShares::vertex, &LightShares::harmonics})
-                largest = std::max(largest, std::abs(shares[i].*share - before[i].*share));
+            for (const auto fraction :
+                 {&LightFractions::pixel, &LightFractions::vertex, &LightFractions::harmonics})
+                largest = std::max(largest, std::abs(fractions[i].*fraction - before[i].*fraction));
         }
         EXPECT_NEAR(sum, 3, 1e-12) << candela;
-        EXPECT_EQ(shares[1].pixel, 1);
-        min = std::min(min, shares[2].pixel);
-        before = shares;
+        EXPECT_EQ(fractions[1].pixel, 1);
+        min = std::min(min, fractions[2].pixel);
+        before = fractions;
     }
     EXPECT_LT(largest, 0.01);
     EXPECT_LT(min, 0.01) << "in the end the third sun has none";

@@ -143,19 +143,19 @@ TEST(VisibleSurface, ASampleCoversWhatTheWholeDoes) {
     scene.nodes.emplace_back().mesh = 0;
     const Pose pose = poseAt(scene, 0);
     const Bounds bounds = worldBounds(scene, pose);
-    const auto share = [&](std::uint64_t limit) {
+    const auto fraction = [&](std::uint64_t limit) {
         const VisibleSurface wall(scene, pose, bounds, limit);
         int met = 0;
         for (int i = 0; i < 64 * 64; ++i)
             met += wall.nearest({1.97 * (i % 64) + 0.37, 1.97 * (i / 64) + 0.61, 5}, {0, 0, -1}).has_value();
         return met / (64.0 * 64.0);
     };
-    EXPECT_NEAR(share(side * side), 0.5, 0.01);
-    const double sampled = share(side * side / 8);
+    EXPECT_NEAR(fraction(side * side), 0.5, 0.01);
+    const double sampled = fraction(side * side / 8);
     // Triangles with eight times the area at random positions overlap: 1 - e^-0.5 of the wall instead of a
     // half.
     EXPECT_NEAR(sampled, 1 - std::exp(-0.5), 0.03);
-    EXPECT_EQ(share(side * side / 8), sampled);
+    EXPECT_EQ(fraction(side * side / 8), sampled);
 }
 
 TEST(DefaultView, OfAnObjectIsTheUsual) {

@@ -81,8 +81,8 @@ TEST(ReceiverMask, HoldsWhateverCastsOnWhatIsSeen) {
                 // Half of them on the sides of the image, a third at the end of the cascade.
                 const double x = i % 4 == 0 ? std::copysign(1, part(random)) : part(random);
                 const double y = i % 4 == 1 ? std::copysign(1, part(random)) : part(random);
-                const double share = i % 3 == 0 ? 1 : std::abs(part(random));
-                const glm::dvec3 seen = test.at(x, y, area.begin + (area.end - area.begin) * share);
+                const double fraction = i % 3 == 0 ? 1 : std::abs(part(random));
+                const glm::dvec3 seen = test.at(x, y, area.begin + (area.end - area.begin) * fraction);
                 const double angle = 3.15 * part(random);
                 glm::dvec3 caster = test.clip(area, seen);
                 if (std::abs(caster.x) > 0.95 || std::abs(caster.y) > 0.95) continue;
@@ -149,9 +149,9 @@ void expectDrawn(const Case& test) {
         for (int i = 0; i < 400; ++i) {
             const double x = i % 4 == 0 ? std::copysign(1, part(random)) : part(random);
             const double y = i % 4 == 1 ? std::copysign(1, part(random)) : part(random);
-            const double share = i % 3 == 0 ? 1 : std::abs(part(random));
+            const double fraction = i % 3 == 0 ? 1 : std::abs(part(random));
             const double begin = first && i % 2 == 0 ? 0 : area.begin;
-            const glm::dvec3 seen = test.at(x, y, begin + (area.end - begin) * share);
+            const glm::dvec3 seen = test.at(x, y, begin + (area.end - begin) * fraction);
             const glm::dvec2 texel = (glm::dvec2(test.clip(area, seen)) + 1.0) / 2.0 * size;
             // Beyond the scene's bounds, which no map covers.
             if (std::min(texel.x, texel.y) < 0 || std::max(texel.x, texel.y) > size) continue;
@@ -193,9 +193,10 @@ TEST(ReceiverMask, DrawsAboutHalfOfAMap) {
     const Case test;
     for (const CascadeArea& area : test.cascades.areas) {
         const ReceiverMask::Texels drawn = test.mask(area, everything).read();
-        const double share = double{1} * drawn.width * drawn.height / (test.request.size * test.request.size);
-        EXPECT_GT(share, 0.2) << area.begin;
-        EXPECT_LT(share, 0.75) << area.begin;
+        const double fraction =
+            double{1} * drawn.width * drawn.height / (test.request.size * test.request.size);
+        EXPECT_GT(fraction, 0.2) << area.begin;
+        EXPECT_LT(fraction, 0.75) << area.begin;
     }
 }
 

@@ -187,8 +187,8 @@ TEST(EnvironmentSun, OfAPaintedSkyIsTheDisc) {
         }
         EXPECT_EQ(sun.light.kind, LightKind::directional);
         EXPECT_LT(*std::ranges::max_element(sun.residual.radiance.data), 12) << what;
-        EXPECT_GT(sun.share, 0.1) << what;
-        EXPECT_LT(sun.share, 0.6) << what;
+        EXPECT_GT(sun.fraction, 0.1) << what;
+        EXPECT_LT(sun.fraction, 0.6) << what;
     }
 }
 
@@ -291,15 +291,15 @@ TEST(EnvironmentSun, OfRealEnvironments) {
                                                              {"quarry_02_1k.exr", 0.642, 20},
                                                              {"vintage_measuring_lab_1k.exr", 0.036, 50},
                                                              {"studio_small_08_1k.exr", 0, 0}};
-    for (const auto& [name, share, left] : files) {
+    for (const auto& [name, fraction, left] : files) {
         std::vector<std::string> notes;
         const Environment sky = readEnvironment(folder / name, notes);
         const EnvironmentSun sun = environmentSun(sky);
-        RecordProperty(name, sun.found ? describe(sun.light, sun.share) : sun.why);
-        EXPECT_EQ(sun.found, share > 0) << name;
+        RecordProperty(name, sun.found ? describe(sun.light, sun.fraction) : sun.why);
+        EXPECT_EQ(sun.found, fraction > 0) << name;
         if (!sun.found) continue;
         expectAllIsKept(sky, sun, name);
-        EXPECT_NEAR(sun.share, share, 1e-3) << name;
+        EXPECT_NEAR(sun.fraction, fraction, 1e-3) << name;
         EXPECT_LT(*std::ranges::max_element(sun.residual.radiance.data), left) << name;
     }
 }

@@ -58,9 +58,9 @@ struct PoseBuilder {
 
 struct Ratios {
     std::vector<double> all;
-    double at(double share) {
+    double at(double fraction) {
         std::ranges::sort(all);
-        return all.at(static_cast<std::size_t>(share * static_cast<double>(all.size() - 1)));
+        return all.at(static_cast<std::size_t>(fraction * static_cast<double>(all.size() - 1)));
     }
     void print(const std::string& name) {
         fmt::print("{}: {} boxes; of the vertices' diagonal: median {:.3f}, 95 % {:.3f}, largest {:.3f}\n",

@@ -9,13 +9,14 @@
 namespace diptych {
 namespace {
 
-constexpr std::size_t shareWide = 50, shareHigh = 50, shareCovered = 2000;  // the others are background
+constexpr std::size_t fractionWide = 50, fractionHigh = 50,
+                      fractionCovered = 2000;  // the others are background
 
-Frame shareFrame(Path path, std::size_t wrong) {
-    Frame frame = flatFrame(path, shareWide, shareHigh, 1, -1);
-    std::fill_n(frame.channels[Channel::material_id].data.begin(), shareCovered, 3.0f);
+Frame fractionFrame(Path path, std::size_t wrong) {
+    Frame frame = flatFrame(path, fractionWide, fractionHigh, 1, -1);
+    std::fill_n(frame.channels[Channel::material_id].data.begin(), fractionCovered, 3.0f);
     for (std::size_t i = 0; i < wrong; ++i) frame.channels[Channel::lit].pixel(7 * i)[1] = 2;
-    for (std::size_t i = shareCovered; i < shareWide * shareHigh; ++i)
+    for (std::size_t i = fractionCovered; i < fractionWide * fractionHigh; ++i)
         frame.channels[Channel::lit].pixel(i)[0] = path == Path::reference ? 1.0f : 9.0f;
     return frame;
 }
@@ -23,7 +24,7 @@ Frame shareFrame(Path path, std::size_t wrong) {
 Verdict litVerdict(Path left, Path right, std::size_t wrong) {
     Report report;
     report.device = {"a CPU", "1.0", "cpu"};
-    report.frames = {shareFrame(left, 0), shareFrame(right, wrong)};
+    report.frames = {fractionFrame(left, 0), fractionFrame(right, wrong)};
     const Comparison comparison = compareFrames(report, 0, 1, {}, {});
     for (const ChannelDiff& channel : comparison.channels)
         if (channel.mode->channel == Channel::lit) return channel.verdict;
