@@ -4,7 +4,7 @@
 #include "compare/audit/quantities.h"
 #include "compare/audit/report.h"
 #include "compare/audit/small_scene.h"
-#include "compare/experiment/kept.h"
+#include "compare/experiment/row_checkpoint.h"
 
 #include <fmt/format.h>
 
@@ -76,7 +76,7 @@ Step Auditor::stepAt(const Quantity& quantity, std::span<const Series> series, d
         Step step = stepFromJson(json);
         return step.outcomes.size() == series.size() ? std::optional(std::move(step)) : std::nullopt;
     };
-    if (const std::optional<Step> step = experiment::findKept(kept_, name, whole)) {
+    if (const std::optional<Step> step = experiment::findCheckpoint(kept_, name, whole)) {
         ++audit_.kept;
         return *step;
     }

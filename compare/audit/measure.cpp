@@ -2,7 +2,7 @@
 #include "compare/audit/measure.h"
 
 #include "compare/experiment/errors.h"
-#include "compare/experiment/kept.h"
+#include "compare/experiment/row_checkpoint.h"
 #include "compare/frames/frame_properties.h"
 #include "compare/image/channel_image.h"
 #include "compare/metrics/channel.h"

@@ -120,7 +120,7 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     Device device(deviceOptions(options));
     const std::unique_ptr<Device> other = againstDevice(options);
     say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
-    KeptReferences kept(folder, true);
+    ReferenceCheckpoints kept(folder, true);
     RenderOptions render = evaluatedOptions(renderOptions(options), settings, isTraced(settings, baseline),
                                             other != nullptr, options.twice);
     render.keep = kept.opener();

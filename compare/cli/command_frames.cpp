@@ -195,7 +195,7 @@ int runFrames(const RenderLine& options) {
         const double each = (1 - loading) / options.frames, begun = loading + each * i;
         const Stage drawing = stage.part(begun, begun + each);
         render.progress = drawing.part(0, drawnFraction(render));
-        KeptReferences kept(writer.output().path, writer.output().kind == OutputKind::folder);
+        ReferenceCheckpoints kept(writer.output().path, writer.output().kind == OutputKind::folder);
         render.keep = kept.opener();
         const Frame frame = source.draw(settings, render);
         if (device) checkValidation(*device);

@@ -46,7 +46,7 @@ int listScenes(const RenderLine& options) {
 }
 
 std::vector<Frame> drawAll(const RenderLine& options, const std::vector<Settings>& settings, Device* device,
-                           KeptReferences& kept, Progress& progress) {
+                           ReferenceCheckpoints& kept, Progress& progress) {
     const Output output = outputIn(options);
     RenderOptions render = renderOptions(options);
     render.keep = kept.opener();
@@ -130,7 +130,7 @@ int runRender(const RenderLine& options) {
     say(options, "on " + made.name);
     Json result = resultOf(made);
     // Render everything before writing, so that an unreadable scene leaves no partial folder.
-    KeptReferences kept(output.path, output.kind == OutputKind::folder);
+    ReferenceCheckpoints kept(output.path, output.kind == OutputKind::folder);
     const std::vector<Frame> frames = drawAll(options, settings, device ? &*device : nullptr, kept, progress);
     for (const Frame& frame : frames) {
         result["frames"].push_back(jsonOf(frame));

@@ -95,7 +95,7 @@ int sweepOne(const TradeoffLine& options, const experiment::SweepRows& rows) {
     checkValidation(device);
     const std::string json = sweep.write(options.force);
     progress.wipe();
-    noteLeftByOthers(options, sweep.keptReferences());
+    noteLeftByOthers(options, sweep.referenceCheckpoints());
     if (options.json) printText(json);
     print(tradeoffEnd(sweep.tradeoff()) + (folder / "index.html").string() + "\n");
     sayErrors(errors);

@@ -57,7 +57,7 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
     say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
     shards::Collection collection(question, items, device, other.get(), progress);
     sayWhenInterrupted(fmt::format("finished scenes are kept in {}: the same command continues from there",
-                                   collection.keptIn().string()));
+                                   collection.checkpointedIn().string()));
     collection.compareAll();
     sayWhenInterrupted("");
     WholeReport whole = collection.whole();
@@ -73,7 +73,7 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
     writeWhole(whole, joined, folder, report);
     collection.remove();
     progress.wipe();
-    noteLeftByOthers(options, KeptReferences(folder, true));
+    noteLeftByOthers(options, ReferenceCheckpoints(folder, true));
     showWhole(options, joined, folder, report.since.get(), true);
     sayErrors(joined.report.errors);
     return exitCode(joined.report.passed(), !joined.report.errors.empty());

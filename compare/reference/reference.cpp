@@ -104,8 +104,9 @@ public:
                 if (record.number < tiles) {
                     put(record.number, record.values);
                     there[record.number] = true;
-                    image_.kept_fraction += 1.0 / static_cast<double>(tiles);
-                    image_.kept_seconds += double{record.values.front()} / tbb::info::default_concurrency();
+                    image_.resumed_fraction += 1.0 / static_cast<double>(tiles);
+                    image_.resumed_seconds +=
+                        double{record.values.front()} / tbb::info::default_concurrency();
                 }
         // The order of tiles is scattered over the image, so that the finished part predicts the remaining
         // time.
@@ -121,7 +122,7 @@ public:
             if (request_.expected)
                 if (const auto seconds = expectedSeconds(request_.view.width, request_.view.height,
                                                          [&](int x, int y) { renderer.render(x, y); }))
-                    request_.expected(*seconds * (1 - image_.kept_fraction));
+                    request_.expected(*seconds * (1 - image_.resumed_fraction));
             std::atomic<std::size_t> done{0};
             tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
                 const std::vector<float> values = renderTile(renderer, order[i]);

@@ -46,7 +46,7 @@ struct ReferenceImage {
     Image surroundings;
     // Fraction of the tiles rendered by an earlier command, and the time that took, s on the clock with
     // all cores busy.
-    double kept_fraction = 0, kept_seconds = 0;
+    double resumed_fraction = 0, resumed_seconds = 0;
 };
 
 // The channels that mode surface takes as input: captured by a path without any encoding, at one sample.

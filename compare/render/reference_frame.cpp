@@ -191,12 +191,13 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     });
     std::erase_if(frame.through_gbuffer, [&](const auto& entry) { return isUnwanted(entry.first); });
     const double now = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (rendered.kept_fraction > 0)
+    if (rendered.resumed_fraction > 0)
         frame.notes.push_back(fmt::format(
             "the reference resumed at {:.0f} %, which an interrupted command had rendered in {}; the rest "
             "took {}",
-            std::floor(100 * rendered.kept_fraction), clockText(rendered.kept_seconds), clockText(now)));
-    frame.made_in_ms = 1000 * (now + rendered.kept_seconds) + (surfaces ? surfaces->made_in_ms : 0);
+            std::floor(100 * rendered.resumed_fraction), clockText(rendered.resumed_seconds),
+            clockText(now)));
+    frame.made_in_ms = 1000 * (now + rendered.resumed_seconds) + (surfaces ? surfaces->made_in_ms : 0);
     return frame;
 }
 
@@ -225,10 +226,10 @@ std::vector<Frame> drawWithoutDevice(const Scene& scene, const std::vector<Setti
     return drawWithoutDevice(views, settings, options);
 }
 
-KeptReferences::KeptReferences(const fs::path& output, bool isFolder)
+ReferenceCheckpoints::ReferenceCheckpoints(const fs::path& output, bool isFolder)
     : stem_(besideOutput(output, "reference")), is_folder_(isFolder) {}
 
-reference::Checkpoint& KeptReferences::open(std::uint64_t key, std::size_t floats) {
+reference::Checkpoint& ReferenceCheckpoints::open(std::uint64_t key, std::size_t floats) {
     if (is_folder_) OpenFolder::made(stem_.parent_path());  // Checkpoint reports a failure
     checkpoints_.push_back(std::make_unique<reference::Checkpoint>(stem_, key, floats));
     sayWhenInterrupted(
@@ -237,12 +238,12 @@ reference::Checkpoint& KeptReferences::open(std::uint64_t key, std::size_t float
     return *checkpoints_.back();
 }
 
-void KeptReferences::remove() {
+void ReferenceCheckpoints::remove() {
     sayWhenInterrupted({});
     for (const auto& checkpoint : checkpoints_) checkpoint->remove();
 }
 
-std::string KeptReferences::leftByOthers() const {
+std::string ReferenceCheckpoints::leftByOthers() const {
     std::vector<std::string> files;
     for (const fs::path& file : reference::abandonedCheckpoints(stem_)) files.push_back(file.string());
     if (files.empty()) return {};

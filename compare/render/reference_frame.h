@@ -41,10 +41,10 @@ std::vector<Frame> drawWithoutDevice(const Scene& scene, const std::vector<Setti
 // Checkpoints of references until a command ends: one file each beside its output, named after the image
 // (.NAME.reference-HASH). The same command resumes from them. Programs with different outputs have
 // separate files.
-class KeptReferences {
+class ReferenceCheckpoints {
 public:
     // Creates the parent folders of an output that is a folder, as is done for the output itself.
-    KeptReferences(const std::filesystem::path& output, bool isFolder);
+    ReferenceCheckpoints(const std::filesystem::path& output, bool isFolder);
 
     // Opens a checkpoint for one more reference; lives as long as this object. Throws std::runtime_error
     // naming the file if it cannot be written.

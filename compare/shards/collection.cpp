@@ -36,7 +36,7 @@ Collection::Collection(const CollectionQuestion& question, const SceneItems& ite
       kept_(question.folder, "scenes", question.key),
       devices_(device, other, true) {
     checkDevice();
-    findKept();
+    findCheckpoint();
     checkHeaders();
 }
 
@@ -54,7 +54,7 @@ void Collection::checkDevice() {
     kept_.keep("device", {{"device", device}});
 }
 
-void Collection::findKept() {
+void Collection::findCheckpoint() {
     for (const Item* item : items_.mine) {
         if (kept_.find(partOf(*item)) != stampOf(item->scene) || !isPartThere(kept_.path(), item->folder))
             continue;
@@ -115,7 +115,7 @@ void Collection::compareAll() {
 }
 
 ReportPart Collection::compareOne(const Item& item, const Scene& scene, const Stage& stage) {
-    KeptReferences references(question_.folder, true);
+    ReferenceCheckpoints references(question_.folder, true);
     RenderOptions render = question_.drawing;
     render.keep = references.opener();
     const auto [drawing, comparing] = experiment::fractionsOf(render);

@@ -44,7 +44,7 @@ public:
     Collection(const CollectionQuestion& question, const SceneItems& items, Device& device, Device* other,
                Progress& progress);
 
-    const std::filesystem::path& keptIn() const { return kept_.path(); }
+    const std::filesystem::path& checkpointedIn() const { return kept_.path(); }
     // Compares scenes without a kept part. The next scene loads while one is compared.
     void compareAll();
     WholeReport whole();               // moves the parts; without WholeReport::shard
@@ -52,7 +52,7 @@ public:
 
 private:
     void checkDevice();
-    void findKept();
+    void findCheckpoint();
     void attempt(const Item* item, const std::function<void()>& work);
     void checkHeaders();
     ReportPart compareOne(const Item& item, const Scene& scene, const Stage& stage);

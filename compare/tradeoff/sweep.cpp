@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/sweep.h"
 
-#include "compare/experiment/kept.h"
+#include "compare/experiment/row_checkpoint.h"
 #include "compare/experiment/sensitivity.h"
 #include "compare/external/external_frame.h"
 #include "compare/frames/frame_properties.h"
@@ -69,7 +69,7 @@ Sweep::Sweep(SweepQuestion question, Device& device, const Stage& stage)
       views_(scene_),
       renderer_(device, sensitiveViews()),
       pool_(renderer_),
-      kept_references_(question_.folder, true),
+      reference_checkpoints_(question_.folder, true),
       references_(drawReferences()),
       state_(question_.folder, key()) {}
 
@@ -92,7 +92,7 @@ experiment::ReferenceFrames Sweep::drawReferences() {
     const auto uploaded = std::chrono::steady_clock::now();
     RenderOptions drawing = question_.drawing;
     drawing.progress = stage_.part(loaded_, referenced()).about(tradeoff_.scene + ": reference");
-    drawing.keep = kept_references_.opener();
+    drawing.keep = reference_checkpoints_.opener();
     experiment::ReferenceFrames references = experiment::drawReferenceFrames(
         renderer_, tradeoff_.given, question_.cameras, question_.image, drawing);
     tradeoff_.cost.reference = msSince(uploaded);
@@ -220,7 +220,7 @@ std::string Sweep::write(bool force) {
     tradeoff_.cost.whole = msSince(question_.start);
     std::string json = writeTradeoff(tradeoff_, question_.folder, state_ / "",
                                      thumbnail(references_.frames.front(), references_.exposure), force);
-    kept_references_.remove();
+    reference_checkpoints_.remove();
     state_.remove();
     return json;
 }

@@ -43,7 +43,7 @@ public:
     const Tradeoff& tradeoff() const { return tradeoff_; }
     const std::vector<Settings>& rows() const { return question_.rows.rows; }
     bool isRenewed() const { return state_.isRenewed(); }  // rows of another key were removed
-    const KeptReferences& keptReferences() const { return kept_references_; }
+    const ReferenceCheckpoints& referenceCheckpoints() const { return reference_checkpoints_; }
 
     // Draws and times the rows. `shown`: called with a row's index after its first timing block.
     void draw(const std::function<void(std::size_t)>& shown);
@@ -72,7 +72,7 @@ private:
     SceneViews views_;
     Renderer renderer_;
     experiment::PreparedPool pool_;
-    KeptReferences kept_references_;
+    ReferenceCheckpoints reference_checkpoints_;
     const experiment::ReferenceFrames references_;
     SweepState state_;
 };

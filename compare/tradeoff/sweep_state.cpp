@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/sweep_state.h"
 
-#include "compare/experiment/kept.h"
+#include "compare/experiment/row_checkpoint.h"
 #include "compare/files/output.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ SweepState::SweepState(const fs::path& out, const Json& key) : kept_(out, folder
 
 std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_t cameras,
                                             std::size_t blocks) const {
-    return experiment::findKept(kept_, nameOf(settings), [&](const Json& json) {
+    return experiment::findCheckpoint(kept_, nameOf(settings), [&](const Json& json) {
         TradeoffRow row = tradeoffRowFrom(json);
         const auto isVisited = [&](const experiment::Row& camera) {
             const std::size_t times = camera.blocks.size();

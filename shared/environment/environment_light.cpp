@@ -52,8 +52,8 @@ const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environm
                                              background.name, radiance.width, radiance.height,
                                              device_.info().name, max, max));
     const auto start = std::chrono::steady_clock::now();
-    bool wasKept = false;
-    const EnvironmentMaps maps = environmentMaps(environment, request, folder_, &wasKept);
+    bool wasCached = false;
+    const EnvironmentMaps maps = environmentMaps(environment, request, folder_, &wasCached);
     const EnvironmentAtlas atlas = layOut(maps);
     const double ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -75,7 +75,7 @@ const EnvironmentImages& EnvironmentStore::at(Uploader& uploader, const Environm
     images->note = fmt::format(
         "environment: {} maps of up to {} texels per side, {} in {:.0f} ms; error of spherical harmonics in "
         "% of the peak irradiance: mean {:.2g}, largest {:.2g}; windowed ({:.2g}): {:.2g} and {:.2g}",
-        maps.levels.size(), maps.levels.front().side, wasKept ? "read" : "made", ms, 100 * raw.mean,
+        maps.levels.size(), maps.levels.front().side, wasCached ? "read" : "made", ms, 100 * raw.mean,
         100 * raw.worst, images->window, 100 * windowed.mean, 100 * windowed.worst);
     made_.push_back(std::move(images));
     return *made_.back();

@@ -165,7 +165,7 @@ bool writeMaps(const fs::path& file, std::uint64_t key, const EnvironmentMaps& m
         hash.add(floats);
         head.hash = hash.value();
         AtomicFile out(file);
-        keepForUser(out.stream());
+        cacheForUser(out.stream());
         std::fwrite(&head, sizeof head, 1, out.stream());
         std::fwrite(floats.data(), sizeof(float), floats.size(), out.stream());
         out.commit();
@@ -202,15 +202,15 @@ void limitMapCache(const fs::path& path, std::uintmax_t max) {
 }
 
 EnvironmentMaps environmentMaps(const Environment& environment, const EnvironmentRequest& request,
-                                const fs::path& folder, bool* wasKept) {
-    if (wasKept) *wasKept = false;
+                                const fs::path& folder, bool* wasCached) {
+    if (wasCached) *wasCached = false;
     if (folder.empty()) return makeEnvironmentMaps(environment, request);
     const std::uint64_t key = mapKey(environment, request);
     const fs::path file = mapCacheFile(folder, key);
     const MapSides sides =
         mapSides(environment.radiance.width, environment.radiance.height, request.prefilter);
     if (std::optional<EnvironmentMaps> maps = readMaps(file, key, sides)) {
-        if (wasKept) *wasKept = true;
+        if (wasCached) *wasCached = true;
         return std::move(*maps);
     }
     EnvironmentMaps maps = makeEnvironmentMaps(environment, request);

@@ -27,9 +27,9 @@ bool writeMaps(const std::filesystem::path& file, std::uint64_t key, const Envir
 // Removes the oldest files until the folder has at most `most` bytes.
 void limitMapCache(const std::filesystem::path& folder, std::uintmax_t max = mapCacheBytes);
 
-// Reads the maps from the folder, or computes and stores them. Empty `folder`: no cache. `wasKept`:
+// Reads the maps from the folder, or computes and stores them. Empty `folder`: no cache. `wasCached`:
 // optional, set to whether they were read.
 EnvironmentMaps environmentMaps(const Environment& environment, const EnvironmentRequest& request,
-                                const std::filesystem::path& folder, bool* wasKept = nullptr);
+                                const std::filesystem::path& folder, bool* wasCached = nullptr);
 
 }  // namespace diptych

@@ -94,7 +94,7 @@ bool writePipelineCache(const fs::path& file, const PipelineCacheKey& key, std::
     folder.removeFile(beside);  // left by a process with the same id
     std::FILE* const stream = folder.create(beside);
     if (!stream) return false;
-    keepForUser(stream);
+    cacheForUser(stream);
     const bool written = std::fwrite(&head, sizeof head, 1, stream) == 1 &&
                          std::fwrite(data.data(), 1, data.size(), stream) == data.size();
     const bool closed = std::fclose(stream) == 0;

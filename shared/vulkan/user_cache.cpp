@@ -78,7 +78,7 @@ OpenFolder makeCacheFolder(const fs::path& folder) {
     return there.fault().empty() ? std::move(there) : OpenFolder();
 }
 
-void keepForUser(std::FILE* file) {
+void cacheForUser(std::FILE* file) {
     ::fchmod(::fileno(file), 0600);
 }
 

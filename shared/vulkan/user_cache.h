@@ -31,6 +31,6 @@ CacheFile openCacheFile(const std::filesystem::path& file);
 // Creates the folder for this user alone if it is missing. Not open if cacheFault() reports a problem.
 OpenFolder makeCacheFolder(const std::filesystem::path& folder);
 // Restricts access to this user regardless of the umask; otherwise openCacheFile() would reject the file.
-void keepForUser(std::FILE* file);
+void cacheForUser(std::FILE* file);
 
 }  // namespace diptych

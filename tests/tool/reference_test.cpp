@@ -159,7 +159,7 @@ std::string inShell(const std::vector<std::string>& words) {
 }
 
 // The checkpoint files beside r.exr, sorted by name.
-std::vector<fs::path> keptIn(const Folder& folder) {
+std::vector<fs::path> checkpointedIn(const Folder& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder.path()))
         if (entry.path().filename().string().starts_with(".r.exr.reference-")) files.push_back(entry.path());
@@ -186,7 +186,7 @@ std::set<std::uint64_t> tilesIn(const fs::path& file) {
 bool endsAndGoesOn(const Folder& folder, const std::vector<std::string>& words, int signal, bool says) {
     Running tool(folder, words);
     const auto tiles = [&] {
-        const std::vector<fs::path> kept = keptIn(folder);
+        const std::vector<fs::path> kept = checkpointedIn(folder);
         return kept.empty() ? 0 : tilesIn(kept.front()).size();
     };
     EXPECT_TRUE(soon([&] { return tiles() > 0 || tool.ended(); })) << tool.err();
@@ -197,7 +197,7 @@ bool endsAndGoesOn(const Folder& folder, const std::vector<std::string>& words, 
     EXPECT_TRUE(WIFSIGNALED(tool.wait()) && WTERMSIG(tool.wait()) == signal) << tool.wait();
     EXPECT_GT(tiles(), 0u) << "what is done is there";
     if (::testing::Test::HasFailure()) return false;
-    const fs::path kept = keptIn(folder).front();
+    const fs::path kept = checkpointedIn(folder).front();
     EXPECT_EQ(
         tool.err().find(kept.filename().string() + ": the same command resumes there") != std::string::npos,
         says)
@@ -261,7 +261,7 @@ fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::
                      std::size_t min) {
     fs::path own;
     EXPECT_TRUE(soon([&] {
-        for (const fs::path& file : keptIn(folder))
+        for (const fs::path& file : checkpointedIn(folder))
             if (std::ranges::count(before, file) == 0 && tilesIn(file).size() >= min) own = file;
         return !own.empty() || tool.ended();
     })) << tool.err();
@@ -287,7 +287,8 @@ bool keepsWhatIsOfAnotherImage(const Folder& folder, const std::vector<std::stri
         const Ran ran = runTool(folder, command + quiet);
         EXPECT_EQ(ran.code, 0) << ran.err;
         EXPECT_EQ(runTool(folder, "diff sound.exr r.exr --metric max --tolerance 0").code, 0);
-        EXPECT_EQ(keptIn(folder), std::vector<fs::path>{kept}) << "its own is removed, the other's is not";
+        EXPECT_EQ(checkpointedIn(folder), std::vector<fs::path>{kept})
+            << "its own is removed, the other's is not";
         EXPECT_EQ(contentsOf(kept), held);
         const std::string line =
             "diptych: kept from other interrupted references: " + kept.filename().string() + ";";
@@ -295,7 +296,7 @@ bool keepsWhatIsOfAnotherImage(const Folder& folder, const std::vector<std::stri
     }
     // The command of the first image can still resume, and removes the file at its end.
     EXPECT_EQ(runTool(folder, inShell(words)).code, 0);
-    EXPECT_TRUE(keptIn(folder).empty());
+    EXPECT_TRUE(checkpointedIn(folder).empty());
     return true;
 }
 
@@ -307,11 +308,12 @@ TEST(ReferenceTool, WhatIsKeptOfAnotherImageStaysAndIsNamed) {
 bool keepTheirTilesApart(const Folder& folder, const std::vector<std::string>& words) {
     Running one(folder, words);
     EXPECT_TRUE(soon([&] {
-        return one.ended() || (!keptIn(folder).empty() && !tilesIn(keptIn(folder).front()).empty());
+        return one.ended() ||
+               (!checkpointedIn(folder).empty() && !tilesIn(checkpointedIn(folder).front()).empty());
     }));
     if (one.ended()) return false;
     ::kill(one.process(), SIGSTOP);  // stopped with its file locked while the second runs
-    const std::vector<fs::path> first = keptIn(folder);
+    const std::vector<fs::path> first = checkpointedIn(folder);
     if (first.empty()) return false;
     EXPECT_EQ(first.size(), 1u);
     const std::size_t before = tilesIn(first[0]).size();
@@ -326,11 +328,11 @@ bool keepTheirTilesApart(const Folder& folder, const std::vector<std::string>& w
 
     // The next program moves all tiles into one file before it adds any.
     Running third(folder, words);
-    EXPECT_TRUE(soon([&] { return third.ended() || keptIn(folder).size() == 1; })) << third.err();
+    EXPECT_TRUE(soon([&] { return third.ended() || checkpointedIn(folder).size() == 1; })) << third.err();
     ::kill(third.process(), SIGSTOP);
     if (third.ended()) return false;
     // Either file is possible: the system may release a killed program's lock after its exit is visible.
-    const std::vector<fs::path> taken = keptIn(folder);
+    const std::vector<fs::path> taken = checkpointedIn(folder);
     if (taken.empty()) return false;
     EXPECT_EQ(taken.size(), 1u);
     EXPECT_TRUE(std::ranges::includes(tilesIn(taken[0]), done));
@@ -339,7 +341,7 @@ bool keepTheirTilesApart(const Folder& folder, const std::vector<std::string>& w
 
     const Ran last = runTool(folder, inShell(words));
     EXPECT_EQ(last.code, 0) << last.err;
-    EXPECT_TRUE(keptIn(folder).empty());
+    EXPECT_TRUE(checkpointedIn(folder).empty());
     fs::rename(folder / "r.exr", folder / "pieced.exr");
     EXPECT_EQ(runTool(folder, inShell(words)).code, 0);
     EXPECT_EQ(runTool(folder, "diff r.exr pieced.exr --metric max --tolerance 0").code, 0);
@@ -359,7 +361,7 @@ TEST(ReferenceTool, TwoProgramsWithOneOutputBothFinish) {
     Running one(folder, words), two(folder, words);
     EXPECT_EQ(one.wait(), 0) << one.err();
     EXPECT_EQ(two.wait(), 0) << two.err();
-    EXPECT_TRUE(keptIn(folder).empty());
+    EXPECT_TRUE(checkpointedIn(folder).empty());
     EXPECT_TRUE(fs::exists(folder / "r.exr"));
 }
 

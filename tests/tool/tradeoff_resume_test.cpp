@@ -26,7 +26,7 @@ Json untimedRows(const Json& tradeoff) {
 }
 
 // The rows that the sweep has stored, by their Settings.
-std::map<std::string, Json> keptIn(const fs::path& state) {
+std::map<std::string, Json> checkpointedIn(const fs::path& state) {
     std::map<std::string, Json> rows;
     std::error_code ignored;
     for (fs::directory_iterator entry(state, ignored), end; !ignored && entry != end;
@@ -41,12 +41,12 @@ std::map<std::string, Json> keptIn(const fs::path& state) {
 std::map<std::string, Json> cut(const Folder& folder, std::size_t count, int signal,
                                 std::string* said = nullptr) {
     Running tool(folder, longSweep);
-    EXPECT_TRUE(soon([&] { return tool.ended() || keptIn(folder / ".t.sweep").size() >= count; }));
+    EXPECT_TRUE(soon([&] { return tool.ended() || checkpointedIn(folder / ".t.sweep").size() >= count; }));
     EXPECT_FALSE(tool.ended()) << "too fast to be cut: " << tool.err();
     ::kill(tool.process(), signal);
     EXPECT_TRUE(soon([&] { return tool.ended(); }));
     if (said) *said = tool.err();
-    return keptIn(folder / ".t.sweep");
+    return checkpointedIn(folder / ".t.sweep");
 }
 
 TEST(TradeoffResume, ASweepKilledAtAnyRowGoesOnToTheSameTable) {
@@ -117,7 +117,7 @@ TEST(TradeoffResume, ARecordThatIsNotWholeIsMeasuredAgain) {
             fs::remove(entry.path().parent_path() / (entry.path().stem().string() + ".png"));
     }
     ASSERT_EQ(damaged, 2u);
-    const std::size_t whole = keptIn(folder / ".t.sweep").size();  // one of them lacks its image
+    const std::size_t whole = checkpointedIn(folder / ".t.sweep").size();  // one of them lacks its image
     ASSERT_EQ(runTool(folder, shellWords(longSweep) + "-q").code, 0);
     EXPECT_EQ(readJson(folder / "t/tradeoff.json")["rows_kept"], whole - 1);
 }

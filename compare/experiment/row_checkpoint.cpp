@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/experiment/kept.h"
+#include "compare/experiment/row_checkpoint.h"
 
 #include "compare/files/frame_json.h"
 #include "compare/files/our_files.h"
