@@ -24,9 +24,9 @@ int wholePixels(double pixels) {
 // An image size of the same aspect ratio for which this many lights are affordable; equal at every
 // magnitude.
 Size sizeForLights(const Subject& subject) {
-    const Size size = subject.given.settings.size;
+    const Size size = subject.original.settings.size;
     const double pixels = static_cast<double>(size.width) * size.height;
-    const auto local = static_cast<double>(std::ranges::count_if(subject.given.scene.lights, isLocal));
+    const auto local = static_cast<double>(std::ranges::count_if(subject.original.scene.lights, isLocal));
     const double part = std::sqrt(std::min(1.0, maxLit / (maxCopies * local * pixels)));
     return {wholePixels(size.width * part), wholePixels(size.height * part)};
 }
@@ -47,7 +47,7 @@ void pushLights(Case& pushed, const Subject& subject, double copies) {
 // the sum has one exponent, half as far on average, and the other way in every second exponent.
 Predicted predictLights(const Subject& subject, const Settings&, double error) {
     const auto reaching =
-        static_cast<double>(std::ranges::count_if(subject.given.scene.lights, [&](const Light& light) {
+        static_cast<double>(std::ranges::count_if(subject.original.scene.lights, [&](const Light& light) {
             return isLocal(light) && glm::distance(light.position, subject.point) < double{light.range};
         }));
     return {
@@ -87,7 +87,7 @@ Primitive divided(const Primitive& whole, int n) {
 
 void pushTriangles(Case& pushed, const Subject& subject, double triangles) {
     const double each =
-        triangles / static_cast<double>(std::max<std::size_t>(triangleCount(subject.given.scene), 1));
+        triangles / static_cast<double>(std::max<std::size_t>(triangleCount(subject.original.scene), 1));
     const int n = static_cast<int>(std::lround(std::sqrt(std::max(each, 1.0))));
     if (n < 2) return;
     for (Mesh& mesh : pushed.scene.meshes)
@@ -96,7 +96,7 @@ void pushTriangles(Case& pushed, const Subject& subject, double triangles) {
 }
 
 std::string lacksRigid(const Subject& subject) {
-    for (const Mesh& mesh : subject.given.scene.meshes)
+    for (const Mesh& mesh : subject.original.scene.meshes)
         if (std::ranges::any_of(mesh.primitives, isRigid)) return {};
     return "every mesh of the scene is skinned or morphed";
 }
@@ -123,7 +123,9 @@ std::vector<Quantity> amountQuantities() {
          .what = "number of triangles, by subdividing the scene's own",
          .magnitudes = ladder(1e2, 1e6),
          .original =
-             [](const Subject& subject) { return static_cast<double>(triangleCount(subject.given.scene)); },
+             [](const Subject& subject) {
+                 return static_cast<double>(triangleCount(subject.original.scene));
+             },
          .lacks = {lacksRigid},
          .push = pushTriangles,
          .whole = true,
@@ -141,7 +143,7 @@ std::vector<Quantity> amountQuantities() {
          .unit = "s",
          .what = "the animation time",
          .magnitudes = ladder(1e-3, 1e6, 10, {0}),
-         .original = [](const Subject& subject) { return subject.given.settings.time; },
+         .original = [](const Subject& subject) { return subject.original.settings.time; },
          .lacks = {[](const Subject& subject) -> std::string {
              return subject.moves ? "" : "nothing in the scene is animated";
          }},

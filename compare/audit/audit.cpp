@@ -144,7 +144,7 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     for (std::size_t c = 0; c < audit.predicted.size(); ++c)
         for (const Series& series : audit.series)
             audit.predicted[c].push_back(
-                predictedOf(quantity, subject, series.applied(subject.given.settings), criteria[c].limit));
+                predictedOf(quantity, subject, series.applied(subject.original.settings), criteria[c].limit));
     return audit;
 }
 

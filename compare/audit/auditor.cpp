@@ -26,7 +26,7 @@ Auditor::Auditor(const AuditQuestion& question, Audited audited, const Subject& 
 nlohmann::ordered_json Auditor::key() {
     nlohmann::ordered_json key =
         experiment::keyOf(audit_.scene, measurer_.fingerprint(), audit_.settings, audit_.device);
-    key["lights"] = lightsFileOf(subject_.given);
+    key["lights"] = lightsFileOf(subject_.original);
     return key;
 }
 

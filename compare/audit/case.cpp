@@ -57,20 +57,20 @@ Subject makeSubject(const Scene& scene, const Settings& settings) {
     SceneViews views(scene);
     const SceneView& view = views.at(viewRequest(settings));
     Subject subject;
-    subject.given = {scene, settings};
+    subject.original = {scene, settings};
     subject.view = view.view;
     subject.view_name = view.default_view.empty() ? view.view.camera.name : view.default_view;
-    Case& given = subject.given;
-    given.scene.lights = view.lights;
-    if (view.sun && !given.scene.lights.empty())
-        given.scene.lights.pop_back();  // --env-sun extracts it again
-    for (Light& light : given.scene.lights) light.node = light.source = -1;
-    given.settings.lights = Settings().lights;
+    Case& original = subject.original;
+    original.scene.lights = view.lights;
+    if (view.sun && !original.scene.lights.empty())
+        original.scene.lights.pop_back();  // --env-sun extracts it again
+    for (Light& light : original.scene.lights) light.node = light.source = -1;
+    original.settings.lights = Settings().lights;
     Camera camera = view.view.camera;
     camera.node = camera.source = -1;
     camera.name = "audited";
-    given.scene.cameras.push_back(std::move(camera));
-    given.settings.camera = std::to_string(given.scene.cameras.size() - 1);
+    original.scene.cameras.push_back(std::move(camera));
+    original.settings.camera = std::to_string(original.scene.cameras.size() - 1);
     subject.bounds = worldBounds(scene, view.pose);
     subject.moves = std::ranges::any_of(scene.animations, movesAnything);
     findSurface(subject, scene, view.pose);

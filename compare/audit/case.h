@@ -32,7 +32,7 @@ struct Case {
 
 // Properties of the original case that quantities and relations use.
 struct Subject {
-    Case given;
+    Case original;
     View view;
     std::string view_name;  // the camera's name, or how it was chosen
     // The visible surface in or nearest to the image's centre: world, m.

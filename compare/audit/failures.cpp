@@ -33,7 +33,7 @@ std::optional<Broken> firstBroken(const QuantityAudit& of, const Subject& subjec
     for (const std::size_t criterion : {numberCriterion, requiredCriterion})
         for (std::size_t s = 0; s < of.series.size(); ++s) {
             const ValidRange& range = of.valid_ranges[criterion][s];
-            if (!range.at_original || !isPrecise(of.series[s].applied(subject.given.settings))) continue;
+            if (!range.at_original || !isPrecise(of.series[s].applied(subject.original.settings))) continue;
             for (const BreakingPoint* point : {&range.up, &range.down})
                 if (point->broken) return Broken{s, criterion, point->first};
         }
@@ -49,7 +49,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     if (!broken) return;
     const Series& series = of.series[broken->series];
     const Criterion& criterion = criteria[broken->criterion];
-    Case pushed = subject.given;
+    Case pushed = subject.original;
     of.quantity->push(pushed, subject, broken->magnitude);
     const auto test = [&](const Case& candidate) {
         const Step step = measurer.measure(candidate, std::span(&series, 1));

@@ -20,14 +20,14 @@ bool isBlended(const Scene& scene, const Primitive& primitive) {
 }
 
 std::string lacksRigidMesh(const Subject& subject) {
-    const bool any = std::ranges::any_of(subject.given.scene.meshes, [](const Mesh& mesh) {
+    const bool any = std::ranges::any_of(subject.original.scene.meshes, [](const Mesh& mesh) {
         return !mesh.primitives.empty() && hasRigidPrimitives(mesh);
     });
     return any ? "" : "every mesh of the scene is skinned or morphed";
 }
 
 std::string lacksOrder(const Subject& subject) {
-    const bool unsorted = subject.given.settings.transparency == Transparency::unsorted;
+    const bool unsorted = subject.original.settings.transparency == Transparency::unsorted;
     return unsorted ? "--transparency unsorted blends in file order" : "";
 }
 
@@ -110,7 +110,7 @@ std::string lacksFlat(const Subject& subject) {
     if (subject.seen && subject.bounds.radius() > 1000 * subject.nearest)
         return "the scene's farthest surface is over 1000 times as far as its nearest: rounded edge "
                "midpoints would be visible";
-    for (const Mesh& mesh : subject.given.scene.meshes)
+    for (const Mesh& mesh : subject.original.scene.meshes)
         for (const Primitive& primitive : mesh.primitives)
             for (std::size_t t = 0; isRigid(primitive) && t + 2 < primitive.indices.size(); t += 3)
                 if (isFlat(primitive, &primitive.indices[t])) return {};
@@ -139,7 +139,7 @@ void splitTriangles(Related& related, const Subject&) {
 }
 
 std::string lacksMaterials(const Subject& subject) {
-    const Scene& scene = subject.given.scene;
+    const Scene& scene = subject.original.scene;
     if (scene.materials.size() < 2) return "the scene has one material";
     for (const Animation& animation : scene.animations)
         for (const AnimationChannel& channel : animation.channels)
@@ -161,9 +161,10 @@ void permuteMaterials(Related& related, const Subject&) {
 }
 
 std::string lacksFile(const Subject& subject) {
-    return flattened(subject.given) ? ""
-                                    : "joints, morph targets or a rotated normal map move vertices, and the "
-                                      "written file leaves them out";
+    return flattened(subject.original)
+               ? ""
+               : "joints, morph targets or a rotated normal map move vertices, and the "
+                 "written file leaves them out";
 }
 
 // The scene without textures, environment and animation, written to a file and read back.
@@ -177,14 +178,14 @@ Case readAgain(const Case& flat, const std::string& file, const char* name) {
 
 void throughGltf(Related& related, const Subject& subject) {
     related.own_base = true;
-    related.base = *flattened(subject.given);
+    related.base = *flattened(subject.original);
     related.changed = readAgain(related.base, gltfOf(related.base), "relation.gltf");
     // Unused materials are not written; the others are numbered in order of first use.
     related.map.ids = writtenMaterials(related.base.scene);
 }
 void throughGlb(Related& related, const Subject& subject) {
     related.own_base = true;
-    const Case flat = *flattened(subject.given);
+    const Case flat = *flattened(subject.original);
     related.base = readAgain(flat, gltfOf(flat), "relation.gltf");
     related.changed = readAgain(flat, glbOf(flat), "relation.glb");
 }

@@ -110,8 +110,8 @@ Json toJson(const Step& step) {
     return {{"magnitude", step.magnitude}, {"rows", arrayOf(step.outcomes, outcomeJson)}};
 }
 
-Step stepFromJson(const Json& given) {
-    const JsonAt<Json> json(given);
+Step stepFromJson(const Json& original) {
+    const JsonAt<Json> json(original);
     Step step{json.at("magnitude").number(), {}};
     for (const JsonAt<Json>& one : json.at("rows").each()) {
         Outcome& outcome = step.outcomes.emplace_back(Outcome{experiment::rowFrom(one)});

@@ -36,7 +36,7 @@ void pushIntensity(Case& pushed, const Subject&, double factor) {
 // Range of light intensities, each in its own unit.
 Predicted predictIntensity(const Subject& subject, const Settings&, double) {
     double max = 0, min = std::numeric_limits<double>::infinity();
-    for (const Light& light : subject.given.scene.lights) {
+    for (const Light& light : subject.original.scene.lights) {
         if (!(light.intensity > 0)) continue;
         max = std::max(max, double{light.intensity});
         min = std::min(min, double{light.intensity});
@@ -49,8 +49,8 @@ Predicted predictIntensity(const Subject& subject, const Settings&, double) {
 
 // Whether anything but local lights shines on surfaces.
 bool hasOtherLight(const Subject& subject) {
-    const Scene& scene = subject.given.scene;
-    const Rgb& ambient = subject.given.settings.ambient;
+    const Scene& scene = subject.original.scene;
+    const Rgb& ambient = subject.original.settings.ambient;
     return scene.environment || std::max({ambient.r, ambient.g, ambient.b}) > 0 ||
            std::ranges::any_of(scene.lights,
                                [](const Light& light) { return !isLocal(light) && light.intensity > 0; });
@@ -77,7 +77,7 @@ void pushRange(Case& pushed, const Subject&, double metres) {
 
 double originalRange(const Subject& subject) {
     double longest = 0;
-    for (const Light& light : subject.given.scene.lights)
+    for (const Light& light : subject.original.scene.lights)
         if (isLocal(light) && std::isfinite(light.range)) longest = std::max(longest, double{light.range});
     return longest > 0 ? longest : 2 * subject.bounds.radius();
 }
@@ -109,12 +109,12 @@ void pushCone(Case& pushed, const Subject& subject, double degrees) {
 }
 
 std::string lacksPunctualLight(const Subject& subject) {
-    const bool any = std::ranges::any_of(subject.given.scene.lights, isPunctual);
+    const bool any = std::ranges::any_of(subject.original.scene.lights, isPunctual);
     return any ? "" : "the scene has no point or spot light";
 }
 
 std::string lacksEnvironment(const Subject& subject) {
-    return subject.given.scene.environment ? "" : "the scene has no environment: add one with --env";
+    return subject.original.scene.environment ? "" : "the scene has no environment: add one with --env";
 }
 
 // The brightest pixel, and the sum of its components.
@@ -130,7 +130,7 @@ std::pair<std::size_t, float> brightestOf(const Image& radiance) {
 // Radiance, its maps and their sums are float32; a path's estimate multiplies it by some thousand at most.
 // Maps of fixed resolution spread a pixel that outshines all others, and samples miss it.
 Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
-    const float max = brightestOf(subject.given.scene.environment->radiance).second;
+    const float max = brightestOf(subject.original.scene.environment->radiance).second;
     return {.up = max > 0 ? 0x1p118 / max : Predicted::never,
             .because =
                 "radiance is float32 from the environment to the picture, up to 3e38; maps and samples only "

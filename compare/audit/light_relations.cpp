@@ -9,18 +9,18 @@ namespace diptych::audit {
 namespace {
 
 std::string lacksTwoLights(const Subject& subject) {
-    if (subject.given.scene.lights.size() < 2) return "the scene has one light";
-    if (subject.given.settings.shadow_lights > 0)
+    if (subject.original.scene.lights.size() < 2) return "the scene has one light";
+    if (subject.original.settings.shadow_lights > 0)
         return "--shadow-lights selects among equal lights by their order";
-    if (subject.given.settings.haze &&
-        std::ranges::count(subject.given.scene.lights, LightKind::directional, &Light::kind) > 1)
+    if (subject.original.settings.haze &&
+        std::ranges::count(subject.original.scene.lights, LightKind::directional, &Light::kind) > 1)
         return "--haze scatters the light of one sun";
     return {};
 }
 
 std::string lacksSplittable(const Subject& subject) {
-    const Settings& settings = subject.given.settings;
-    if (subject.given.scene.lights.empty()) return "the scene has no light";
+    const Settings& settings = subject.original.settings;
+    if (subject.original.scene.lights.empty()) return "the scene has no light";
     if (settings.light_cutoff > 0) return "--light-cutoff gives a dimmer light a shorter range";
     if (settings.shadows != Shadows::off) return "a sun or --shadow-lights cast shadows: leave out --shadows";
     return {};

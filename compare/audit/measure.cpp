@@ -143,7 +143,7 @@ ChosenSeries chosenOf(const std::vector<Series>& wanted,
 }
 
 ChosenSeries seriesOf(const Quantity& quantity, const Subject& subject) {
-    Case original = subject.given;
+    Case original = subject.original;
     quantity.push(original, subject, quantity.original(subject));
     std::vector<std::vector<Change>> changes{{}, {{"gbuffer", "full"}}};
     for (const Change& change : quantity.variants) changes.push_back({change});
@@ -181,11 +181,11 @@ Frame Measurer::tracedRays(Scene scene, Settings settings) {
 const Measurer::Truth& Measurer::original(const Size& size) {
     const auto known = original_.find({size.width, size.height});
     if (known != original_.end()) return known->second;
-    Settings settings = subject_.given.settings;
+    Settings settings = subject_.original.settings;
     settings.size = size;
-    SceneViews views(subject_.given.scene);
+    SceneViews views(subject_.original.scene);
     Renderer renderer(device_, views, pipelines_);
-    Truth truth{litOfSurfaces(renderer, settings), tracedRays(subject_.given.scene, settings)};
+    Truth truth{litOfSurfaces(renderer, settings), tracedRays(subject_.original.scene, settings)};
     return original_.emplace(std::pair(size.width, size.height), std::move(truth)).first->second;
 }
 
@@ -219,12 +219,12 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
 }
 
 std::string Measurer::fingerprint() {
-    const Truth& truth = original(subject_.given.settings.size);
+    const Truth& truth = original(subject_.original.settings.size);
     return experiment::fingerprint(std::array{&truth.lit, &truth.rays});
 }
 
 Step Measurer::measure(const Quantity& quantity, std::span<const Series> series, double magnitude) {
-    Case pushed = subject_.given;
+    Case pushed = subject_.original;
     quantity.push(pushed, subject_, magnitude);
     if (on_step_) on_step_(fmt::format("{} {:.4g} {}", quantity.name, magnitude, quantity.unit));
     return measure(pushed, series, &quantity, magnitude);

@@ -56,7 +56,7 @@ Predicted predictOffset(const Subject& subject, const Settings&, double error) {
 
 Predicted predictScale(const Subject& subject, const Settings&, double) {
     double min = std::numeric_limits<double>::infinity();
-    for (const Light& light : subject.given.scene.lights)
+    for (const Light& light : subject.original.scene.lights)
         if (isPunctual(light)) min = std::min(min, double{light.intensity});
     // Candela scale with the square of the factor.
     const double dim = std::isfinite(min) && min > 0 ? std::sqrt(0x1p-126 / min) : 0;

@@ -56,7 +56,7 @@ void mirror(Related& related, const Subject&) {
 }
 
 std::string lacksTurnable(const Subject& subject) {
-    const bool lit = subject.given.settings.env != Settings().env || subject.given.scene.environment;
+    const bool lit = subject.original.settings.env != Settings().env || subject.original.scene.environment;
     return lit ? "the maps of an environment have their own pixel grid" : "";
 }
 std::string lacksMirrorable(const Subject& subject) {
@@ -77,7 +77,7 @@ void shiftTiles(Related& related, const Subject&) {
 }
 
 std::string lacksFixedBorder(const Subject& subject) {
-    const bool any = std::ranges::any_of(subject.given.scene.materials, transmits);
+    const bool any = std::ranges::any_of(subject.original.scene.materials, transmits);
     return any ? "surfaces with transmission read the picture up to its border, which moves" : "";
 }
 

@@ -22,13 +22,13 @@ std::string lacksSurface(const Subject& subject) {
     return subject.seen ? "" : "no surface is in view";
 }
 std::string lacksLocalLight(const Subject& subject) {
-    return std::ranges::any_of(subject.given.scene.lights, isLocal)
+    return std::ranges::any_of(subject.original.scene.lights, isLocal)
                ? ""
                : "the scene has no point, spot or area light";
 }
 std::string lacksSun(const Subject& subject) {
-    return std::ranges::all_of(subject.given.scene.lights, isLocal) ? "the scene has no directional light"
-                                                                    : "";
+    return std::ranges::all_of(subject.original.scene.lights, isLocal) ? "the scene has no directional light"
+                                                                       : "";
 }
 
 double originalOne(const Subject&) {
@@ -64,7 +64,7 @@ std::vector<double> ladder(double first, double last, double step, std::initiali
 
 double localDistance(const Subject& subject, const glm::dvec3& from) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Light& light : subject.given.scene.lights)
+    for (const Light& light : subject.original.scene.lights)
         if (isLocal(light)) nearest = std::min(nearest, glm::distance(light.position, from));
     return nearest;
 }

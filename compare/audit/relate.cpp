@@ -86,11 +86,12 @@ Settings settingsOfSeries(const Series& series, const Settings& settings) {
 // Renderers to test: both paths with the original Settings, deferred with a float32 G-buffer, and last the
 // reference.
 ChosenSeries relatedSeries(const Subject& subject) {
-    return chosenOf({{drawn_paths[0], {}},
-                     {drawn_paths[1], {}},
-                     {Path::deferred, {{"gbuffer", "full"}}},
-                     {Path::reference, {{"reference-mode", "scene"}}}},
-                    [&](const Series& series) { return settingsOfSeries(series, subject.given.settings); });
+    return chosenOf(
+        {{drawn_paths[0], {}},
+         {drawn_paths[1], {}},
+         {Path::deferred, {{"gbuffer", "full"}}},
+         {Path::reference, {{"reference-mode", "scene"}}}},
+        [&](const Series& series) { return settingsOfSeries(series, subject.original.settings); });
 }
 
 }  // namespace
@@ -148,10 +149,10 @@ Image RelationMeasurer::packedLight(const Case& of, const PixelMap& map) {
 
 Image RelationMeasurer::packedLight(const Related& related) {
     Image own;
-    Image& given = related.own_base ? own : packed_light_;
-    if (given.empty()) given = packedLight(related.base, {});
+    Image& original = related.own_base ? own : packed_light_;
+    if (original.empty()) original = packedLight(related.base, {});
     Image sum = packedLight(related.changed, related.map);
-    std::ranges::transform(sum.data, given.data, sum.data.begin(), std::plus());
+    std::ranges::transform(sum.data, original.data, sum.data.begin(), std::plus());
     return sum;
 }
 
@@ -189,36 +190,36 @@ std::uint64_t RelationMeasurer::tied() {
     const std::array orders{std::string("draws_reversed"), std::string("materials_permuted")};
     for (const Relation* order : relationsOf(orders)) {
         if (!order->lacks(subject_).empty()) continue;
-        Related related{subject_.given, subject_.given};
+        Related related{subject_.original, subject_.original};
         order->change(related, subject_);
-        const std::array settings{settingsOfSeries({unencoded_path, {}}, subject_.given.settings)};
-        Drawn given, changed;
-        draw(given, related.base, settings, false);
+        const std::array settings{settingsOfSeries({unencoded_path, {}}, subject_.original.settings)};
+        Drawn original, changed;
+        draw(original, related.base, settings, false);
         draw(changed, related.changed, settings, false);
-        if (!given.frames[0] || !changed.frames[0]) continue;
+        if (!original.frames[0] || !changed.frames[0]) continue;
         RelationTolerance tolerance;
         tolerance.reorders = true;
         const Frame back = mappedBack(*changed.frames[0], related.map);
-        tied_ = std::max(*tied_, evaluate(*given.frames[0], back, tolerance).aside);
+        tied_ = std::max(*tied_, evaluate(*original.frames[0], back, tolerance).aside);
     }
     return *tied_;
 }
 
-void RelationMeasurer::check(SeriesResult& of, std::size_t i, const Related& related, const Drawn& given,
+void RelationMeasurer::check(SeriesResult& of, std::size_t i, const Related& related, const Drawn& original,
                              const Drawn& changed) {
     Image packed;
     if (hasGBuffer(of.series.path) && !of.tolerance.packed.empty()) {
         packed = packedLight(related);
         of.tolerance.packed_light = &packed;
     }
-    if (const auto& reference = given.frames.back(); reference && !reference->blended.empty())
+    if (const auto& reference = original.frames.back(); reference && !reference->blended.empty())
         of.tolerance.blended = &reference->blended;
-    of.comparison.failed = given.failed[i].empty() ? changed.failed[i] : given.failed[i];
+    of.comparison.failed = original.failed[i].empty() ? changed.failed[i] : original.failed[i];
     if (of.comparison.failed.empty()) {
         Frame back = mappedBack(*changed.frames[i], related.map);
-        of.comparison = evaluate(*given.frames[i], back, of.tolerance);
+        of.comparison = evaluate(*original.frames[i], back, of.tolerance);
         if (!of.comparison.passes()) {
-            of.given = given.frames[i];
+            of.original = original.frames[i];
             of.changed = std::move(back);
         }
     }
@@ -231,7 +232,7 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
     result.lacks = relation.lacks(subject_);
     if (!result.lacks.empty()) return result;
     if (on_step_) on_step_(std::string(relation.name));
-    Related related{subject_.given, subject_.given};
+    Related related{subject_.original, subject_.original};
     relation.change(related, subject_);
     if (spoil) spoil(related.changed);
     std::vector<Settings> before, after;
@@ -241,12 +242,12 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
     }
     // The original images are rendered once, unless a relation has its own base.
     Drawn own, changed;
-    Drawn& given = related.own_base ? own : given_;
+    Drawn& original = related.own_base ? own : original_;
     // The reference integrates an environment for a minute, where a path reads its maps. It decides
     // nothing here: it only shows whose fault a broken relation is, and which pixels blend.
     const bool dear = related.base.scene.environment.has_value();
     const bool blended = std::ranges::any_of(related.base.scene.materials, blends);
-    draw(given, related.base, before, !dear || blended);
+    draw(original, related.base, before, !dear || blended);
     draw(changed, related.changed, after, !dear);
     for (std::size_t i = 0; i < series_.size(); ++i) {
         SeriesResult& of = result.series.emplace_back();
@@ -260,11 +261,11 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
                 of.lacks = "not drawn: both paths hold, and the reference is slow with an environment";
                 continue;
             }
-            draw(given, related.base, before, true);
+            draw(original, related.base, before, true);
             draw(changed, related.changed, after, true);
         }
         of.tolerance = toleranceOf(relation, related, after[i]);
-        check(of, i, related, given, changed);
+        check(of, i, related, original, changed);
     }
     // Visibility among coinciding surfaces is arbitrary.
     if (relation.equality != Equality::rounding && !relation.reorders) return result;

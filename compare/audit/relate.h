@@ -79,7 +79,7 @@ struct FrameResult {
 Frame mappedBack(const Frame& changed, const PixelMap& map);
 
 // `changed`: mapped back.
-FrameResult evaluate(const Frame& given, const Frame& changed, const RelationTolerance& tolerance);
+FrameResult evaluate(const Frame& original, const Frame& changed, const RelationTolerance& tolerance);
 
 // One renderer's two images.
 struct SeriesResult {
@@ -87,7 +87,7 @@ struct SeriesResult {
     std::string lacks;  // why the relation does not apply; empty if it does
     FrameResult comparison;
     RelationTolerance tolerance;
-    std::optional<Frame> given{}, changed{};  // only if broken: with lit, mapped back
+    std::optional<Frame> original{}, changed{};  // only if broken: with lit, mapped back
 };
 
 struct RelationResult {
@@ -124,7 +124,7 @@ private:
     RelationTolerance toleranceOf(const Relation& relation, const Related& related,
                                   const Settings& settings) const;
     // Compares the images of series i within `of.tolerance`.
-    void check(SeriesResult& of, std::size_t i, const Related& related, const Drawn& given,
+    void check(SeriesResult& of, std::size_t i, const Related& related, const Drawn& original,
                const Drawn& changed);
 
     Device& device_;
@@ -138,7 +138,7 @@ private:
     const ChosenSeries chosen_;
     const std::vector<Series>& series_ = chosen_.series;
     std::optional<std::uint64_t> tied_;
-    Drawn given_;         // the original subject
+    Drawn original_;      // the original subject
     Image packed_light_;  // of the original subject
 };
 

@@ -123,10 +123,10 @@ std::string relationsHtml(const RelationAudit& audit, const std::vector<std::str
 }
 
 // lit with the original image's exposure.
-Image8 shownLit(const Frame& frame, const Frame& given) {
+Image8 shownLit(const Frame& frame, const Frame& original) {
     const DebugMode& mode = debugMode(Channel::lit);
     ImageScale scale;
-    scale.exposure = exposureFor({}, &given.channels.at(mode.channel), coverage(given, given));
+    scale.exposure = exposureFor({}, &original.channels.at(mode.channel), coverage(original, original));
     return channelImage(mode, frame, scale);
 }
 
@@ -136,8 +136,8 @@ void putImages(ListedFolder& folder, const Relation& relation, const SeriesResul
         folder.list(file);
         writePng(folder / file, image);
     };
-    put("given", shownLit(*of.given, *of.given));
-    put("changed", shownLit(*of.changed, *of.given));
+    put("given", shownLit(*of.original, *of.original));
+    put("changed", shownLit(*of.changed, *of.original));
     put("used", errorMap(of.comparison.used_by_pixel, 1));
 }
 

@@ -77,8 +77,11 @@ void aroundPixel(const Image& image, std::size_t pixel, const Visit& visit) {
 
 class Evaluation {
 public:
-    Evaluation(const Frame& given, const Frame& changed, const RelationTolerance& tolerance)
-        : given_(given), changed_(changed), tolerance_(tolerance), where_(coverage(given, changed)) {}
+    Evaluation(const Frame& original, const Frame& changed, const RelationTolerance& tolerance)
+        : original_(original),
+          changed_(changed),
+          tolerance_(tolerance),
+          where_(coverage(original, changed)) {}
 
     FrameResult run() {
         FrameResult result;
@@ -103,21 +106,21 @@ public:
     }
 
 private:
-    const Image& given(Channel mode) const { return given_.channels.at(mode); }
+    const Image& original(Channel mode) const { return original_.channels.at(mode); }
     const Image& changed(Channel mode) const { return changed_.channels.at(mode); }
 
     // Scenes without a layer lack its channels.
     bool isKnown(Channel mode) const {
-        return given_.channels.contains(mode) && changed_.channels.contains(mode);
+        return original_.channels.contains(mode) && changed_.channels.contains(mode);
     }
 
     double difference(Channel mode, std::size_t pixel) const {
-        return apart(given(mode).pixel(pixel), changed(mode).pixel(pixel), given(mode).components);
+        return apart(original(mode).pixel(pixel), changed(mode).pixel(pixel), original(mode).components);
     }
     // The largest component in either image.
     double size(Channel mode, std::size_t pixel) const {
-        const int components = given(mode).components;
-        return std::max(largest(given(mode).pixel(pixel), components),
+        const int components = original(mode).components;
+        return std::max(largest(original(mode).pixel(pixel), components),
                         largest(changed(mode).pixel(pixel), components));
     }
     // A packed G-buffer may change both images by this.
@@ -131,7 +134,7 @@ private:
     double variation(Channel mode, std::size_t pixel) const {
         double alike = 0, any = 0;
         bool found = false;
-        for (const Frame* frame : {&given_, &changed_}) {
+        for (const Frame* frame : {&original_, &changed_}) {
             const Image &image = frame->channels.at(mode), &ids = frame->channels.at(Channel::material_id);
             aroundPixel(image, pixel, [&](std::size_t other) {
                 const double change = apart(image.pixel(pixel), image.pixel(other), image.components);
@@ -146,7 +149,7 @@ private:
     }
 
     bool isTextured(std::size_t pixel) const {
-        const float id = given(Channel::material_id).data[pixel];
+        const float id = original(Channel::material_id).data[pixel];
         return id >= 0 && static_cast<std::size_t>(id) < tolerance_.textured.size() &&
                tolerance_.textured[static_cast<std::size_t>(id)];
     }
@@ -158,21 +161,21 @@ private:
     // Largest relative change of a lobe's light by the change of its normal. Per radian ln D of GGX changes
     // by 2 / alpha if the half vector is alpha away; cosines, Smith's and Fresnel's factors by some 4.
     double lightByNormal(Channel normals, Channel roughnesses, std::size_t pixel) const {
-        const double roughness = given(roughnesses).data[pixel];
+        const double roughness = original(roughnesses).data[pixel];
         return (2 / std::max(roughness * roughness, minAlpha) + 4) * normalApart(normals, pixel);
     }
     // A sheen's ln D changes by cot(theta_h) / alpha, which is less than 2 / alpha where D is not small. The
     // sheen has a least roughness, and the normal of the base.
     double lightBySheen(std::size_t pixel) const {
         if (!isKnown(Channel::sheen_color) || !isKnown(Channel::sheen_roughness) ||
-            largest(given(Channel::sheen_color).pixel(pixel), 3) == 0)
+            largest(original(Channel::sheen_color).pixel(pixel), 3) == 0)
             return 0;
-        const double roughness = std::max(double{given(Channel::sheen_roughness).data[pixel]},
+        const double roughness = std::max(double{original(Channel::sheen_roughness).data[pixel]},
                                           double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
         return (2 / (roughness * roughness) + 4) * normalApart(Channel::normals, pixel);
     }
     double lightByFilm(std::size_t pixel) const {
-        return isKnown(Channel::iridescence) && given(Channel::iridescence).data[pixel] > 0
+        return isKnown(Channel::iridescence) && original(Channel::iridescence).data[pixel] > 0
                    ? filmSlope * normalApart(Channel::normals, pixel)
                    : 0;
     }
@@ -228,12 +231,12 @@ private:
     void setEdgesAside(FrameResult& result) {
         std::uint64_t edges = 0;
         for (std::size_t i = 0; i < aside_.size(); ++i) {
-            const bool beside = isBesideEdge(given_, i),
+            const bool beside = isBesideEdge(original_, i),
                        blended = tolerance_.blended && isNearBlended(*tolerance_.blended, i, 1);
             edges += beside || blended;
             aside_[i] =
                 (beside &&
-                 (given(Channel::material_id).data[i] != changed(Channel::material_id).data[i] ||
+                 (original(Channel::material_id).data[i] != changed(Channel::material_id).data[i] ||
                   !isWithinRounding(Channel::depth, i) || !isWithinRounding(Channel::geometric_normal, i))) ||
                 (blended && !isWithinRounding(Channel::lit, i));
             result.aside += aside_[i];
@@ -243,7 +246,7 @@ private:
 
     void setTiesAside(FrameResult& result) {
         for (std::size_t i = 0; i < aside_.size(); ++i) {
-            if (given(Channel::depth).data[i] != changed(Channel::depth).data[i]) continue;
+            if (original(Channel::depth).data[i] != changed(Channel::depth).data[i]) continue;
             aside_[i] = std::ranges::any_of(relatedChannels(), [&](Channel mode) {
                 return mode != Channel::lit && isKnown(mode) && difference(mode, i) > 0;
             });
@@ -268,8 +271,8 @@ private:
     }
 
     double errorAt(Channel mode, std::size_t pixel, double& allowed) const {
-        const float *const p = given(mode).pixel(pixel), *const q = changed(mode).pixel(pixel);
-        const int components = given(mode).components;
+        const float *const p = original(mode).pixel(pixel), *const q = changed(mode).pixel(pixel);
+        const int components = original(mode).components;
         if (tolerance_.equality == Equality::bits ||
             (tolerance_.equality == Equality::sums && mode != Channel::lit)) {
             allowed = tolerance_.ulps;
@@ -298,7 +301,7 @@ private:
     }
 
     ChannelResult channel(Channel mode, Image& used) {
-        const Image& image = given(mode);
+        const Image& image = original(mode);
         used = Image(image.width, image.height, 1);
         ChannelResult result{.mode = mode};
         for (std::size_t i = 0; i < aside_.size(); ++i) {
@@ -319,11 +322,11 @@ private:
         return result;
     }
 
-    const Frame &given_, &changed_;
+    const Frame &original_, &changed_;
     const RelationTolerance& tolerance_;
     const Coverage where_;
     const double light_floor_ =
-        PixelError(ErrorKind::relative, ChannelKind::color, given(Channel::lit), where_).floor();
+        PixelError(ErrorKind::relative, ChannelKind::color, original(Channel::lit), where_).floor();
     std::vector<bool> aside_, filtered_;
 };
 
@@ -403,8 +406,8 @@ Frame mappedBack(const Frame& changed, const PixelMap& map) {
     return back;
 }
 
-FrameResult evaluate(const Frame& given, const Frame& changed, const RelationTolerance& tolerance) {
-    return Evaluation(given, changed, tolerance).run();
+FrameResult evaluate(const Frame& original, const Frame& changed, const RelationTolerance& tolerance) {
+    return Evaluation(original, changed, tolerance).run();
 }
 
 }  // namespace diptych::audit

@@ -22,12 +22,12 @@ std::span<const Relation> relations() {
 }
 
 std::string lacksWithShadows(const Subject& subject) {
-    const Settings& settings = subject.given.settings;
+    const Settings& settings = subject.original.settings;
     if (settings.shadows == Shadows::off) return {};
     return "shadow-map texels fall on other points: leave out --shadows";
 }
 std::string lacksPerObject(const Subject& subject) {
-    if (subject.given.settings.assign != Assignment::per_object) return {};
+    if (subject.original.settings.assign != Assignment::per_object) return {};
     return "--assign per_object merges some of an object's lights, and then merges others";
 }
 

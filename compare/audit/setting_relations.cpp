@@ -10,7 +10,7 @@ void assignAs(Related& related, Assignment wanted, Assignment otherwise) {
     settings.assign = settings.assign == wanted ? otherwise : wanted;
 }
 std::string lacksLists(const Subject& subject) {
-    return subject.given.settings.assign == Assignment::every ? "--assign every has no lists" : "";
+    return subject.original.settings.assign == Assignment::every ? "--assign every has no lists" : "";
 }
 
 // Draws the two images with these values of an option.

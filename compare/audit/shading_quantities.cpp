@@ -18,13 +18,13 @@ void pushRoughness(Case& pushed, const Subject&, double roughness) {
 }
 
 std::string lacksNormalMap(const Subject& subject) {
-    const bool any = std::ranges::any_of(subject.given.scene.materials, [](const Material& material) {
+    const bool any = std::ranges::any_of(subject.original.scene.materials, [](const Material& material) {
         return material.normal_texture.texture >= 0;
     });
     return any ? "" : "no material has a normal map";
 }
 std::string lacksTexture(const Subject& subject) {
-    return subject.given.scene.images.empty() ? "no material has a texture" : "";
+    return subject.original.scene.images.empty() ? "no material has a texture" : "";
 }
 
 void pushNormalMap(Case& pushed, const Subject&, double strength) {

@@ -79,7 +79,7 @@ Primitive withoutVertices(const Primitive& primitive) {
 
 void addVertex(Primitive& to, const Primitive& from, std::uint32_t i) {
     to.indices.push_back(static_cast<std::uint32_t>(to.positions.size()));
-    eachAttribute(to, from, [i](auto& values, const auto& given) { values.push_back(given[i]); });
+    eachAttribute(to, from, [i](auto& values, const auto& original) { values.push_back(original[i]); });
 }
 
 std::vector<int> writtenMaterials(const Scene& scene) {

@@ -176,20 +176,21 @@ void checkSampleTable(const BenchOptions& options) {
         throw std::runtime_error("--lightings: --table msaa takes one --lighting; run it once for each");
 }
 
-std::vector<Assignment> assignmentsOf(const Settings& given, const BenchOptions& options) {
+std::vector<Assignment> assignmentsOf(const Settings& requested, const BenchOptions& options) {
     if (!options.assign.empty()) return options.assign;
-    return options.table == BenchTable::msaa ? std::vector{given.assign} : all<Assignment>();
+    return options.table == BenchTable::msaa ? std::vector{requested.assign} : all<Assignment>();
 }
 
-std::vector<Transparency> transparenciesOf(const Settings& given, const BenchOptions& options) {
-    if (options.table == BenchTable::msaa && given.transparency != Transparency::off)
-        return {Transparency::off, given.transparency};
-    return options.transparencies.empty() ? std::vector{given.transparency} : options.transparencies;
+std::vector<Transparency> transparenciesOf(const Settings& requested, const BenchOptions& options) {
+    if (options.table == BenchTable::msaa && requested.transparency != Transparency::off)
+        return {Transparency::off, requested.transparency};
+    return options.transparencies.empty() ? std::vector{requested.transparency} : options.transparencies;
 }
 
 // Only deferred has several lighting modes.
-std::vector<Lighting> lightingsOf(Path path, const Settings& given, const BenchOptions& options) {
-    return hasGBuffer(path) && !options.lightings.empty() ? options.lightings : std::vector{given.lighting};
+std::vector<Lighting> lightingsOf(Path path, const Settings& requested, const BenchOptions& options) {
+    return hasGBuffer(path) && !options.lightings.empty() ? options.lightings
+                                                          : std::vector{requested.lighting};
 }
 
 std::vector<Settings> bySamples(const Settings& settings, const BenchOptions& options) {
@@ -213,15 +214,15 @@ void refuseLists(std::string_view table, const BenchOptions& options) {
 }
 
 // Throws if they cannot be drawn.
-Settings tableSettings(const Settings& given, const BenchOptions& options, Path path) {
-    Settings settings = given;
+Settings tableSettings(const Settings& requested, const BenchOptions& options, Path path) {
+    Settings settings = requested;
     settings.path = path;
     if (!options.assign.empty()) settings.assign = options.assign.front();
     if (const auto problem = settings.problem()) throw std::runtime_error(*problem);
     return settings;
 }
 
-BenchCases growthCases(const Settings& given, const BenchOptions& options) {
+BenchCases growthCases(const Settings& requested, const BenchOptions& options) {
     refuseLists("growth", options);
     if (!options.light_counts.empty())
         throw std::runtime_error("--table growth: takes no --light-counts: lights are an axis");
@@ -232,7 +233,7 @@ BenchCases growthCases(const Settings& given, const BenchOptions& options) {
             BenchGroup group{
                 std::nullopt, row.scene(static_cast<std::uint64_t>(value)), {}, GrowthPoint{row.axis, value}};
             for (const Path path : pathsOf(options)) {
-                Settings settings = tableSettings(given, options, path);
+                Settings settings = tableSettings(requested, options, path);
                 if (row.axis == GrowthAxis::pixels) settings.size = sizeOfPixels(value);
                 group.settings.push_back(settings);
             }
@@ -250,7 +251,7 @@ std::vector<Cover> tableCovers() {
     return covers;
 }
 
-BenchCases layerCases(const Settings& given, const BenchOptions& options) {
+BenchCases layerCases(const Settings& requested, const BenchOptions& options) {
     refuseLists("layers", options);
     const std::vector<std::uint32_t> counts =
         options.light_counts.empty() ? std::vector<std::uint32_t>{1, 64, 1024} : options.light_counts;
@@ -262,8 +263,8 @@ BenchCases layerCases(const Settings& given, const BenchOptions& options) {
             BenchGroup group{
                 lights, fmt::format("builtin:covered?{}lights={}", fraction, lights), {}, {}, cover};
             for (const Path path : pathsOf(options)) {
-                Settings settings = tableSettings(given, options, path);
-                for (const Layers layers : hasGBuffer(path) ? all<Layers>() : std::vector{given.layers}) {
+                Settings settings = tableSettings(requested, options, path);
+                for (const Layers layers : hasGBuffer(path) ? all<Layers>() : std::vector{requested.layers}) {
                     settings.layers = layers;
                     group.settings.push_back(settings);
                 }
@@ -310,15 +311,15 @@ std::string_view nameOf(GrowthAxis axis) {
     return std::ranges::find(growthRows, axis, &GrowthRow::axis)->name;
 }
 
-BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options) {
-    if (options.table == BenchTable::growth) return growthCases(given, options);
+BenchCases makeBenchCases(const std::string& scene, const Settings& requested, const BenchOptions& options) {
+    if (options.table == BenchTable::growth) return growthCases(requested, options);
     if (!options.axes.empty()) throw std::runtime_error("--axes: needs --table growth");
-    if (options.table == BenchTable::layers) return layerCases(given, options);
+    if (options.table == BenchTable::layers) return layerCases(requested, options);
     checkSampleTable(options);
     const std::vector<Path> paths = pathsOf(options);
-    const std::vector<Assignment> assignments = assignmentsOf(given, options);
-    const std::vector<Size> sizes = options.sizes.empty() ? std::vector{given.size} : options.sizes;
-    const std::vector<Transparency> transparencies = transparenciesOf(given, options);
+    const std::vector<Assignment> assignments = assignmentsOf(requested, options);
+    const std::vector<Size> sizes = options.sizes.empty() ? std::vector{requested.size} : options.sizes;
+    const std::vector<Transparency> transparencies = transparenciesOf(requested, options);
     std::vector<std::optional<std::uint32_t>> counts(options.light_counts.begin(),
                                                      options.light_counts.end());
     if (counts.empty()) counts.emplace_back();
@@ -335,7 +336,7 @@ BenchCases makeBenchCases(const std::string& scene, const Settings& given, const
     };
     for (const std::optional<std::uint32_t>& count : counts) {
         BenchGroup group{count, scene, {}};
-        Settings lit = given;
+        Settings lit = requested;
         if (count) putLights(*count, group.scene, lit);
         for (const Size& size : sizes)
             for (const Assignment assign : assignments)

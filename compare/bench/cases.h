@@ -107,7 +107,7 @@ struct BenchCases {
 // time. BenchTable::growth ignores `scene` and uses builtin:array and builtin:spheres, BenchTable::layers
 // builtin:covered. BenchTable::msaa: each path with and without transparency, at 1, 4 and 8 samples per
 // pixel, with one assignment.
-BenchCases makeBenchCases(const std::string& scene, const Settings& given, const BenchOptions& options);
+BenchCases makeBenchCases(const std::string& scene, const Settings& requested, const BenchOptions& options);
 
 // Predicted frame time with `lights`, ms: linear through the last two of (lights, ms), never less than the
 // last. `measured` ascends. Empty with fewer than two points.

@@ -346,7 +346,7 @@ std::vector<Block> blocksOf(const ChoiceReport& report) {
     std::vector<Block> blocks{
         Heading{2,
                 {verdictOf(report), " ", Span(report.scene, Span::name),
-                 fmt::format(", {}x{}, ", report.given.size.width, report.given.size.height),
+                 fmt::format(", {}x{}, ", report.requested.size.width, report.requested.size.height),
                  Span(fmt::format("{}", fmt::join(report.cameras, "; ")), Span::foreign),
                  ": " + goalText(report.budget)}},
         output::Box{"choice", {outcomeBox(report, metrics, lines), plot}}};
@@ -376,9 +376,9 @@ std::vector<Block> blocksOf(const CommonReport& report) {
         choice.left_out > 0 ? fmt::format("; {} proposed by fewer scenes left out", choice.left_out) : ""));
     std::vector<Block> blocks{
         Heading{2,
-                {verdictOf(report),
-                 fmt::format(" all {} scenes, {}x{}: {} in each", report.scenes.size(),
-                             report.given.size.width, report.given.size.height, goalText(report.budget))}},
+                {verdictOf(report), fmt::format(" all {} scenes, {}x{}: {} in each", report.scenes.size(),
+                                                report.requested.size.width, report.requested.size.height,
+                                                goalText(report.budget))}},
         outcomeBox(report, metrics, lines)};
     if (const std::optional<std::size_t> shown = choice.shown())
         blocks.emplace_back(sceneTable(report, *shown));

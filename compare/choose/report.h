@@ -34,7 +34,7 @@ struct SensitivityReport : Sensitivities {
 
 // Texts of a choice for one scene or of a joint choice.
 struct AnyReport {
-    Settings given;
+    Settings requested;
     Budget budget;
     // By candidate: description of its Settings, and the command that renders it.
     std::vector<std::string> words, commands;

@@ -36,28 +36,30 @@ std::function<void(double, std::string_view)> reporter(const Stage& stage) {
 }
 
 // Candidates: the rows of --grid, or default rows limited to settings that the scene is sensitive to.
-std::vector<Settings> candidatesFor(const std::string& grid, const Settings& given, const Device& device,
+std::vector<Settings> candidatesFor(const std::string& grid, const Settings& requested, const Device& device,
                                     const SceneView& view, const Scene& scene) {
-    experiment::SweepRows sweep = experiment::makeSweepRows(
-        given, grid.empty() ? experiment::defaultGrids(given) : experiment::readGrids(grid, given));
+    experiment::SweepRows sweep =
+        experiment::makeSweepRows(requested, grid.empty() ? experiment::defaultGrids(requested)
+                                                          : experiment::readGrids(grid, requested));
     if (grid.empty()) sweep = experiment::sensitiveRows(sweep, view.lights, &scene);
-    sweep = experiment::withoutRefused(std::move(sweep), given,
+    sweep = experiment::withoutRefused(std::move(sweep), requested,
                                        [&](const Settings& row) { return drawingProblem(device, row); });
     // For each path, Settings of the command line come first: other rows are described as changes to them.
-    std::ranges::stable_sort(sweep.rows, {},
-                             [&](const Settings& row) { return experiment::changesOf(row, given).size(); });
+    std::ranges::stable_sort(
+        sweep.rows, {}, [&](const Settings& row) { return experiment::changesOf(row, requested).size(); });
     return std::move(sweep.rows);
 }
 
 // Settings with further changes; empty if a sweep would not render them.
-std::optional<Settings> combined(const Settings& given, const Settings& of, std::span<const Change> changes) {
+std::optional<Settings> combined(const Settings& requested, const Settings& of,
+                                 std::span<const Change> changes) {
     experiment::Grid grid;
-    for (const experiment::Change& choice : experiment::changesOf(of, given))
+    for (const experiment::Change& choice : experiment::changesOf(of, requested))
         if (std::ranges::count(changes, choice.option, &Change::option) == 0)
             grid.push_back({choice.option, {choice.value}});
     for (const Change& change : changes) grid.push_back({change.option, {change.value}});
     try {
-        const experiment::SweepRows sweep = experiment::makeSweepRows(given, {grid});
+        const experiment::SweepRows sweep = experiment::makeSweepRows(requested, {grid});
         for (const Change& change : changes)
             if (sweep.rows.front().valueOf(change.option) != change.value) return {};
         return sweep.rows.front();
@@ -134,13 +136,13 @@ SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const St
     return *loaded_;
 }
 
-Choice SceneChooser::search(LoadedScene& loaded, const Settings& given,
+Choice SceneChooser::search(LoadedScene& loaded, const Settings& requested,
                             const std::vector<Settings>& candidates, const Stage& progress) const {
     SearchOptions options;
     options.budget = question_.budget;
     options.changes = singleChanges(candidates);
     options.combine = [&](const Settings& of, std::span<const Change> changes) -> std::optional<Settings> {
-        std::optional<Settings> made = combined(given, of, changes);
+        std::optional<Settings> made = combined(requested, of, changes);
         const bool drawn = question_.grid.empty() ? made && !drawingProblem(device_, *made)
                                                   : made && std::ranges::count(candidates, *made) > 0;
         return drawn ? made : std::nullopt;
@@ -155,19 +157,19 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
     LoadedScene& loaded = load(where, stage.part(0, 0.05));
     const std::vector<std::string> cameras =
         question_.cameras.empty() ? allCameras(loaded.scene) : question_.cameras;
-    Settings given = question_.settings;
-    given.camera = cameras.front();
-    const std::vector<Settings> candidates =
-        candidatesFor(question_.grid, given, device_, loaded.views.at(viewRequest(given)), loaded.scene);
+    Settings requested = question_.settings;
+    requested.camera = cameras.front();
+    const std::vector<Settings> candidates = candidatesFor(
+        question_.grid, requested, device_, loaded.views.at(viewRequest(requested)), loaded.scene);
 
     ChoiceReport report;
     report.scene = where;
     report.notes = loaded.scene.notes;
-    report.given = given;
+    report.requested = requested;
     report.budget = question_.budget;
     report.device = reportDevice(device_);
 
-    const Settings truth = experiment::referenceFor(given, candidates);
+    const Settings truth = experiment::referenceFor(requested, candidates);
     RenderOptions drawing = question_.drawing;
     drawing.progress = stage.part(0.05, 0.2).about(where + ": reference");
     const experiment::ReferenceFrames& references =
@@ -176,10 +178,10 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
                                                                      question_.image, drawing, false))
             .first->second;
     for (const Frame& frame : references.frames) report.cameras.push_back(page::cameraTitle(frame));
-    experiment::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(given)).needs);
+    experiment::addNotes(report.notes, references, candidates, loaded.views.at(viewRequest(requested)).needs);
     loaded.evaluator.emplace(loaded.renderer, references, question_.budget.metric, question_.drawing);
 
-    report.choice = search(loaded, given, candidates, stage.part(0.2, 0.95));
+    report.choice = search(loaded, requested, candidates, stage.part(0.2, 0.95));
 
     for (Candidate& candidate : report.choice.candidates) {
         candidate.scene = where;
@@ -199,7 +201,7 @@ ChoiceReport SceneChooser::choose(const std::string& where) {
 }
 
 void SceneChooser::describe(AnyReport& report, Settings& candidate, const std::string& scene) const {
-    report.words.push_back(experiment::describe(experiment::changesOf(candidate, report.given)));
+    report.words.push_back(experiment::describe(experiment::changesOf(candidate, report.requested)));
     candidate.camera = question_.settings.camera;
     report.commands.push_back(shellLine(commandArguments("render", scene, candidate)));
 }
@@ -268,8 +270,8 @@ CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports
         return *load(reports[scene].scene, Stage()).evaluator;
     };
     all.choice = choose::chooseForAll(own, evaluatorOf, common);
-    all.given = question_.settings;
-    all.given.camera.clear();
+    all.requested = question_.settings;
+    all.requested.camera.clear();
     all.budget = question_.budget;
     for (CommonCandidate& candidate : all.choice.candidates) {
         for (std::size_t scene = 0; scene < candidate.scenes.size(); ++scene) {

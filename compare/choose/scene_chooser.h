@@ -46,7 +46,7 @@ private:
     struct LoadedScene;  // a scene, read and uploaded
     LoadedScene& load(const std::string& scene, const Stage& progress);
     // `given`: Settings that candidates change.
-    Choice search(LoadedScene& loaded, const Settings& given, const std::vector<Settings>& candidates,
+    Choice search(LoadedScene& loaded, const Settings& requested, const std::vector<Settings>& candidates,
                   const Stage& progress) const;
     // A candidate's words, and a command for all cameras and maybe other scenes.
     void describe(AnyReport& report, Settings& candidate, const std::string& scene) const;

@@ -94,8 +94,8 @@ void resolveAudit(AuditLine& options) {
 // filter is an error by itself, so shadows are on only for shadow quantities.
 Settings auditedSettings(const AuditLine& options) {
     Settings settings = options.settings;
-    if (!options.size_given) settings.size = {160, 90};
-    if (!options.shadows_given) settings.shadows = Shadows::off;
+    if (!options.size_requested) settings.size = {160, 90};
+    if (!options.shadows_requested) settings.shadows = Shadows::off;
     return settings;
 }
 
@@ -104,7 +104,7 @@ void checkAuditOptions(const AuditLine& options) {
         refuse("{}: audit takes one scene; run it once for each", options.scenes[1]);
     if (options.cameras.size() != 1)
         refuse("--camera {}: audit takes one camera; run it once for each", options.cameras[1]);
-    if (options.path_given) refuse("--path: audit compares both paths with the reference; leave it out");
+    if (options.path_requested) refuse("--path: audit compares both paths with the reference; leave it out");
     if (options.settings.msaa > 1)
         refuse("--msaa: audit compares one sample per pixel, like its reference; leave it out");
     checkSettings(auditedSettings(options));
@@ -165,7 +165,7 @@ audit::AuditQuestion questionOf(const AuditLine& options, const std::filesystem:
 int auditQuantities(const AuditLine& options, const Settings& settings) {
     AuditOpening opened(options, settings, "diptych-audit", "audit", audit::auditManifest);
     audit::Audited audited = opened.audited;
-    if (!options.shadows_given)
+    if (!options.shadows_requested)
         audited.notes.emplace_back(
             "--shadows off, except for shadow quantities: a shadow filter's error would hide other errors");
     const audit::AuditQuestion question = questionOf(options, opened.out);
@@ -195,7 +195,7 @@ int auditRelations(const AuditLine& options, const Settings& settings) {
     AuditOpening opened(options, settings, "diptych-relations", "audit of relations",
                         audit::relationsManifest);
     audit::RelationAudit audited{opened.audited, {}};
-    if (!options.shadows_given)
+    if (!options.shadows_requested)
         audited.notes.emplace_back("--shadows off: most relations do not test shadow maps");
     audit::RelationMeasurer measurer(opened.device, opened.subject,
                                      [&](const std::string& step) { say(options, step); });

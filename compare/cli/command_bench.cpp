@@ -80,9 +80,9 @@ void checkBenchOptions(const BenchLine& options) {
 }
 
 BenchCases casesOf(const BenchLine& options, const BenchOptions& bench) {
-    Settings given = options.settings;
-    given.camera = options.cameras.front();
-    return makeBenchCases(options.scenes.front(), given, bench);
+    Settings requested = options.settings;
+    requested.camera = options.cameras.front();
+    return makeBenchCases(options.scenes.front(), requested, bench);
 }
 
 // The subject that outputs name: the scene, or the table if it has scenes of its own.
@@ -95,7 +95,7 @@ std::string subjectOf(const BenchLine& options, BenchTable table) {
 // --path X means --paths X if --paths is missing.
 BenchOptions benchOptions(const BenchLine& options) {
     BenchOptions bench = options;
-    if (bench.paths.empty() && options.path_given) bench.paths = {options.settings.path};
+    if (bench.paths.empty() && options.path_requested) bench.paths = {options.settings.path};
     return bench;
 }
 
@@ -104,7 +104,7 @@ int runBench(const BenchLine& options) {
     const BenchOptions requested = benchOptions(options);
     const BenchCases cases = casesOf(options, requested);
     const std::filesystem::path folder = outputFolder(options, "diptych-bench", "benchmark", benchManifest);
-    if (options.debug_given) note(options, "--debug is not used: bench writes no image of a channel");
+    if (options.debug_requested) note(options, "--debug is not used: bench writes no image of a channel");
     if (!options.channels.empty()) note(options, "--channels is not used: bench writes no channels");
 
     Progress progress(progressOutput(options));

@@ -100,7 +100,7 @@ void checkChooseOptions(const ChooseLine& options) {
 }
 
 Question questionOf(const ChooseLine& options) {
-    return {options.settings,    options.camera_given ? options.cameras : std::vector<std::string>(),
+    return {options.settings,    options.camera_requested ? options.cameras : std::vector<std::string>(),
             options.grid,        {metricNamed(options.metric_text), options.error, options.ms, options.bytes},
             options.explain,     renderOptions(options),
             imageChoice(options)};

@@ -89,18 +89,19 @@ void checkOneImage(const CompareLine& options, const std::vector<Settings>& sett
 
 // The Frame that becomes the new baseline: of --path, else of the old baseline's path.
 const Frame& renewing(const CompareLine& options, const Frame* old, const ViewFrames& view) {
-    const Path path = old && !options.path_given && !isReference(old->settings.path) ? old->settings.path
-                                                                                     : options.settings.path;
+    const Path path = old && !options.path_requested && !isReference(old->settings.path)
+                          ? old->settings.path
+                          : options.settings.path;
     if (const Frame* const drawn = view.by(path)) return *drawn;
     refuse("--path {}: compare renders deferred and forward_plus; use one of them", nameOf(path));
 }
 
 void noteUnused(const CompareLine& options) {
-    if (options.path_given && !options.update_baseline)
+    if (options.path_requested && !options.update_baseline)
         note(options, "--path is not used: compare renders both");
     if (options.heat)
         note(options, "--heat is not used: the report shows every channel, including light_count");
-    if (options.debug_given) note(options, "--debug is not used: the report shows every channel");
+    if (options.debug_requested) note(options, "--debug is not used: the report shows every channel");
 }
 
 // The file of --baseline; empty without one, or if this command writes the first.
@@ -170,13 +171,13 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     return exitCode(passed, !report.errors.empty());
 }
 
-int runCompare(const CompareLine& given) {
-    if (given.pixel) {
-        checkAgainstDevice(given, {});
-        return runPixel(given);
+int runCompare(const CompareLine& requested) {
+    if (requested.pixel) {
+        checkAgainstDevice(requested, {});
+        return runPixel(requested);
     }
-    CompareLine options = given;
-    options.scenes = scenesOf(given.scenes);
+    CompareLine options = requested;
+    options.scenes = scenesOf(requested.scenes);
     const std::vector<Settings> settings = settingsOf(options, comparedOf(options).paths());
     const std::filesystem::path folder = outputFolder(options, "diptych-report", "report", "report.json");
     noteUnused(options);

@@ -27,7 +27,7 @@ void describeDiff(CLI::App& app, DiffLine& options) {
     addOption(app, "--metric", options.metric_text, "NAME",
               "metric for the verdict: flip, rmse, max, relative, psnr, ssim, ulp, ... (flip)");
     addOption(
-        app, "--tolerance", options.tolerance_given, "T",
+        app, "--tolerance", options.tolerance_requested, "T",
         "largest metric value that passes; for psnr and ssim the smallest (none: only equal values pass)");
     addOption(app, "--warn", diff.warn, "T", "warn beyond this value");
     addOption(app, "--failing", diff.failing, "SHARE",
@@ -67,19 +67,19 @@ void resolveDiff(DiffLine& options) {
     diff.selection = options.selection;
     diff.strict = options.strict;
     diff.allow_empty = options.allow_empty;
-    diff.metric_given = !options.metric_text.empty();
-    diff.metric = metricOfMetric(diff.metric_given ? options.metric_text : "flip");
-    if (diff.failing && diff.metric_given)
+    diff.metric_requested = !options.metric_text.empty();
+    diff.metric = metricOfMetric(diff.metric_requested ? options.metric_text : "flip");
+    if (diff.failing && diff.metric_requested)
         refuse("--failing: counts pixels by the channel's own error; leave out --metric");
     if (!std::isfinite(diff.blur)) refuse("--blur: must be a finite number of pixels");
     const Metric& metric = *findMetric(diff.metric);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double identity = !metric.more_is_better ? 0 : metric.name == "ssim" ? 1 : infinity;
-    diff.tolerance = options.tolerance_given.value_or(identity);
-    diff.tolerance_given = options.tolerance_given.has_value();
+    diff.tolerance = options.tolerance_requested.value_or(identity);
+    diff.tolerance_requested = options.tolerance_requested.has_value();
     if (std::isnan(diff.tolerance) || (diff.tolerance < 0 && !metric.more_is_better))
         refuse("--tolerance {}: must be 0 or more", diff.tolerance);
-    if (diff.failing && !diff.tolerance_given)
+    if (diff.failing && !diff.tolerance_requested)
         refuse("--failing: needs --tolerance T, the error above which a pixel fails");
 }
 

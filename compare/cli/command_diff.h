@@ -11,7 +11,7 @@ struct DiffLine : OutputGroup, SelectionGroup, RulesGroup, KeepGroup {
     std::vector<std::string> images;  // reference and test
     ImageDiffOptions diff;            // all but the rules
     std::string metric_text;
-    std::optional<double> tolerance_given;
+    std::optional<double> tolerance_requested;
 };
 
 // Words of options that influence the verdict.

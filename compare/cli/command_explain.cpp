@@ -52,14 +52,14 @@ void describeExplain(CLI::App& app, ExplainLine& options) {
 void resolveExplain(ExplainLine& options) {
     resolveScene(options);
     resolveBaseline(options);
-    for (const std::string& given : options.test_words) {
-        const std::size_t at = given.find('=');
+    for (const std::string& requested : options.test_words) {
+        const std::size_t at = requested.find('=');
         if (at == std::string::npos || at == 0)
-            refuse("--test {}: takes NAME=VALUE, for example gbuffer=compact", given);
-        const std::string name = given.substr(0, at);
+            refuse("--test {}: takes NAME=VALUE, for example gbuffer=compact", requested);
+        const std::string name = requested.substr(0, at);
         if (std::ranges::none_of(settingFields(), [&](const Field& field) { return field.option == name; }))
-            refuse("--test {}: there is no Setting {}", given, name);
-        options.test.emplace_back(name, given.substr(at + 1));
+            refuse("--test {}: there is no Setting {}", requested, name);
+        options.test.emplace_back(name, requested.substr(at + 1));
     }
     resolveRenderers(options);
 }

@@ -152,9 +152,9 @@ std::string parseErrorText(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
-CommandLine parseCommandLine(const std::vector<std::string>& given) {
+CommandLine parseCommandLine(const std::vector<std::string>& requested) {
     std::vector<Command> commands = allCommands();
-    std::vector<std::string> words = given;
+    std::vector<std::string> words = requested;
     const Command* const first = commandIn(commands, words);
     if (first != nullptr && first->submitted != nullptr) {
         const auto end = std::ranges::find(words, "--");

@@ -37,7 +37,7 @@ void describePlan(CLI::App& app, PlanLine& options) {
 int runPlan(const PlanLine& options) {
     refuseOut(options, "plan");
     std::vector<Path> paths(drawn_paths.begin(), drawn_paths.end());
-    if (options.path_given) paths = {options.settings.path};
+    if (options.path_requested) paths = {options.settings.path};
     if (isReference(paths.front()))
         refuse("--path reference: has no passes to plan; use deferred or forward_plus");
     const std::vector<Settings> settings = settingsOf(options, paths);

@@ -196,7 +196,7 @@ void checkChannels(const RenderLine& options) {
 ShownChannels shownChannels(const RenderLine& options) {
     ShownChannels shown;
     for (const Channel channel : options.channels) shown.push_back(&debugMode(channel));
-    if ((shown.empty() || options.debug_given || options.heat) &&
+    if ((shown.empty() || options.debug_requested || options.heat) &&
         std::ranges::count(options.channels, options.shown) == 0)
         shown.push_back(&debugMode(options.shown));
     return shown;
@@ -213,10 +213,10 @@ std::vector<Channel> channelsFor(OutputKind kind, const RenderLine& options, std
 }
 
 void noteIgnored(const RenderLine& options) {
-    const Settings &given = options.settings, defaults;
+    const Settings &requested = options.settings, defaults;
     for (const Field& field : settingFields()) {
-        const std::string_view why = ignoredBecause(given, field.option);
-        if (!why.empty() && given.valueOf(field.option) != defaults.valueOf(field.option))
+        const std::string_view why = ignoredBecause(requested, field.option);
+        if (!why.empty() && requested.valueOf(field.option) != defaults.valueOf(field.option))
             note(options, fmt::format("--{} is not used: {}", field.option, why));
     }
 }

@@ -182,11 +182,11 @@ int runTradeoff(const TradeoffLine& words) {
     TradeoffLine options = words;
     options.scenes = scenesOf(words.scenes);
     checkTradeoffOptions(options);
-    const Settings& given = options.settings;
-    const experiment::SweepRows sweep =
-        experiment::makeSweepRows(given, options.grid.empty() ? experiment::defaultGrids(given)
-                                                              : experiment::readGrids(options.grid, given));
-    if (options.debug_given) note(options, "--debug is not used: errors are measured in lit");
+    const Settings& requested = options.settings;
+    const experiment::SweepRows sweep = experiment::makeSweepRows(
+        requested, options.grid.empty() ? experiment::defaultGrids(requested)
+                                        : experiment::readGrids(options.grid, requested));
+    if (options.debug_requested) note(options, "--debug is not used: errors are measured in lit");
     if (!options.channels.empty()) note(options, "--channels is not used: errors are measured in lit");
     if (options.scenes.size() == 1 && options.shard.empty()) return sweepOne(options, sweep);
     return tradeoffMany(options, outputFolder(options, "diptych-tradeoff", "tradeoff", tradeoffsManifest),

@@ -67,7 +67,7 @@ bool isOf(const Place& channel, Channel shown) {
 
 // Whether the comparison fails; with --debug, whether that channel fails.
 bool failsHere(const Place& comparison, const ViewLine& options) {
-    if (!options.debug_given) return fails(comparison);
+    if (!options.debug_requested) return fails(comparison);
     return std::ranges::any_of(comparison.at("channels").each(), [&](const Place& channel) {
         return isOf(channel, options.shown) && fails(channel);
     });
@@ -77,12 +77,13 @@ bool failsHere(const Place& comparison, const ViewLine& options) {
 Place chosenComparison(const Place& comparisons, const ViewLine& options) {
     std::optional<Place> first;
     for (const Place& comparison : comparisons.each()) {
-        if (options.scene_given && comparison.at("scene").text() != options.scenes.front()) continue;
+        if (options.scene_requested && comparison.at("scene").text() != options.scenes.front()) continue;
         if (!first) first = comparison;
         if (failsHere(comparison, options)) return comparison;
     }
     if (!first)
-        fail(options.scene_given ? "has no comparison of " + options.scenes.front() : "has no comparison");
+        fail(options.scene_requested ? "has no comparison of " + options.scenes.front()
+                                     : "has no comparison");
     return *first;
 }
 
@@ -90,11 +91,11 @@ Place chosenComparison(const Place& comparisons, const ViewLine& options) {
 Place chosenChannel(const Place& channels, const ViewLine& options) {
     std::optional<Place> best;
     for (const Place& channel : channels.each()) {
-        if (options.debug_given && isOf(channel, options.shown)) return channel;
+        if (options.debug_requested && isOf(channel, options.shown)) return channel;
         if (fails(channel) && (!best || !fails(*best))) best = channel;
         if (!best && isOf(channel, Channel::lit)) best = channel;
     }
-    if (options.debug_given) fail(fmt::format("has no channel {}", debugMode(options.shown).name));
+    if (options.debug_requested) fail(fmt::format("has no channel {}", debugMode(options.shown).name));
     return best ? *best : channels[0];
 }
 
@@ -123,20 +124,21 @@ ReportedView readReport(const ViewLine& options) {
 }
 
 // Options of the report's comparison, extended by those of this command line.
-ViewLine reported(const ViewLine& given) {
-    const ReportedView of = readReport(given);
-    ViewLine options = named("--report " + given.report.string(), [&] { return parseReported(of.command); });
-    checkAsked("--report " + given.report.string(), options.scenes.front(), options.settings);
+ViewLine reported(const ViewLine& requested) {
+    const ReportedView of = readReport(requested);
+    ViewLine options =
+        named("--report " + requested.report.string(), [&] { return parseReported(of.command); });
+    checkAsked("--report " + requested.report.string(), options.scenes.front(), options.settings);
     options.shown = findDebugMode(of.channel)->channel;
-    options.pixel = given.pixel ? given.pixel : of.pixel;
-    options.size_given = true;
-    options.report = given.report;
-    options.watch = given.watch;
-    options.device = given.device;
-    options.validate = given.validate;
-    options.quiet = given.quiet;
-    options.verbose = given.verbose;
-    options.out = given.out;
+    options.pixel = requested.pixel ? requested.pixel : of.pixel;
+    options.size_requested = true;
+    options.report = requested.report;
+    options.watch = requested.watch;
+    options.device = requested.device;
+    options.validate = requested.validate;
+    options.quiet = requested.quiet;
+    options.verbose = requested.verbose;
+    options.out = requested.out;
     return options;
 }
 
@@ -147,17 +149,17 @@ void checkOneWindow(const ViewLine& options) {
         refuse("--camera {}: view starts at one camera, and the key N goes to the next", options.cameras[1]);
 }
 
-int runView(const ViewLine& given) {
-    checkOneWindow(given);
-    const bool isReport = !given.report.empty();
-    const ViewLine options = isReport ? reported(given) : given;
+int runView(const ViewLine& requested) {
+    checkOneWindow(requested);
+    const bool isReport = !requested.report.empty();
+    const ViewLine options = isReport ? reported(requested) : requested;
     viewer::ViewerOptions view;
     view.subject.scene = options.scenes.front();
     view.subject.settings = options.settings;
     view.subject.sides = options.sides;
     // Pixel coordinates and images beside the view refer to the size that compare renders.
-    view.size_given =
-        options.size_given || options.pixel || options.selection.any() || !options.baseline_file.empty();
+    view.size_requested =
+        options.size_requested || options.pixel || options.selection.any() || !options.baseline_file.empty();
     view.look.mode = options.shown;
     if (isReport) view.look.difference = viewer::Difference::absolute;
     if (isReference(options.baseline)) view.look.against = viewer::Against::reference;

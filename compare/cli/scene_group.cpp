@@ -62,18 +62,18 @@ void resolveSettings(SettingsGroup& options) {
         const std::string text =
             named("--settings " + words.file, [&] { return textIn(words.file, json_bytes); });
         settings = named(words.file, [&] { return settingsFromJson(text); });
-        options.size_given = options.shadows_given = true;
+        options.size_requested = options.shadows_requested = true;
     }
     for (const auto& [option, value] : words.settings) {
         settings.set(option, value);
-        options.path_given |= option == "path";
-        options.size_given |= option == "size";
-        options.shadows_given |= option == "shadows";
+        options.path_requested |= option == "path";
+        options.size_requested |= option == "size";
+        options.shadows_requested |= option == "shadows";
     }
     if (!words.cameras.empty()) settings.camera = words.cameras.front();
     options.sides = readSides(words.sides, settings);
     options.cameras = words.cameras.empty() ? std::vector{settings.camera} : words.cameras;
-    options.camera_given = !settings.camera.empty();
+    options.camera_requested = !settings.camera.empty();
 }
 
 void resolveTimes(SettingsGroup& options) {
@@ -109,8 +109,8 @@ void resolveTimes(SettingsGroup& options) {
 
 void resolveChannels(ImageGroup& options) {
     const auto& words = options.image_text;
-    options.debug_given = !words.debug.empty();
-    if (options.debug_given) options.shown = channelNamed(words.debug, "--debug");
+    options.debug_requested = !words.debug.empty();
+    if (options.debug_requested) options.shown = channelNamed(words.debug, "--debug");
     if (options.heat) options.shown = Channel::light_count;
     if (words.channels != "all") options.channels = channelsNamed(words.channels);
 }
@@ -212,17 +212,17 @@ void addScene(CLI::App& app, SceneGroup& options, const char* scenes_help, const
     addSettings(app, options, except);
     addImage(app, options);
     addDevice(app, options);
-    addOption(app, "--runs", options.runs_given, "N",
+    addOption(app, "--runs", options.runs_requested, "N",
               fmt::format("timed frames; 0 measures no time ({})", options.runs));
 }
 
 void resolveScene(SceneGroup& options) {
     resolveSettings(options);
     resolveChannels(options);
-    options.scene_given = !options.scenes.empty();
+    options.scene_requested = !options.scenes.empty();
     refuseLineBreaks(options.scenes);
     if (options.scenes.empty()) options.scenes = {"builtin:gallery"};
-    options.runs = options.runs_given.value_or(options.runs);
+    options.runs = options.runs_requested.value_or(options.runs);
     if (options.runs < 0) refuse("--runs {}: must be 0 or more", options.runs);
     checkExposure(options.image);
     resolveTimes(options);

@@ -19,15 +19,15 @@
 namespace diptych::cli {
 
 struct SettingsGroup {
-    Settings settings;                               // camera and time are the first of cameras and times
-    SideSettings sides;                              // --deferred, --forward-plus
-    std::vector<std::string> cameras{""};            // one Frame per camera, scene and path
-    std::vector<double> times{0.0};                  // --times: s; one Frame per time, camera, path, scene
-    int frames = 1;                                  // image count, first at settings.time
-    double fps = 30;                                 // images per second
-    bool camera_given = false;                       // by --camera or --settings
-    bool path_given = false;                         // by --path
-    bool size_given = false, shadows_given = false;  // also by --settings
+    Settings settings;                     // camera and time are the first of cameras and times
+    SideSettings sides;                    // --deferred, --forward-plus
+    std::vector<std::string> cameras{""};  // one Frame per camera, scene and path
+    std::vector<double> times{0.0};        // --times: s; one Frame per time, camera, path, scene
+    int frames = 1;                        // image count, first at settings.time
+    double fps = 30;                       // images per second
+    bool camera_requested = false;         // by --camera or --settings
+    bool path_requested = false;           // by --path
+    bool size_requested = false, shadows_requested = false;  // also by --settings
     // Why --frames takes no more than 1; empty: it does.
     std::string frames_refused = "only render takes it";
 
@@ -44,7 +44,7 @@ struct SettingsGroup {
 
 struct ImageGroup {
     Channel shown = Channel::lit;   // of the image
-    bool debug_given = false;       // by --debug
+    bool debug_requested = false;   // by --debug
     bool heat = false;              // --heat: shows the light count, overriding --debug
     std::vector<Channel> channels;  // debug modes, ascending; empty: all supported
     ImageChoice image;
@@ -64,9 +64,9 @@ struct DeviceGroup {
 
 struct SceneGroup : OutputGroup, SettingsGroup, ImageGroup, DeviceGroup {
     std::vector<std::string> scenes;
-    bool scene_given = false;  // by a scene argument
-    int runs = 2;              // timed frames
-    std::optional<int> runs_given;
+    bool scene_requested = false;  // by a scene argument
+    int runs = 2;                  // timed frames
+    std::optional<int> runs_requested;
 };
 
 inline constexpr const char* one_scene_help = "glTF files, or builtin:NAME (builtin:gallery)";

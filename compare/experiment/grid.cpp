@@ -41,16 +41,16 @@ std::string optionOf(const std::string& key) {
 
 // The value in the words of Settings::set(). `json`: such a word, or a value as in reports.
 std::string valueFrom(const std::string& key, const std::string& option, const Json& json,
-                      const Settings& given) {
-    Settings settings = given;
+                      const Settings& requested) {
+    Settings settings = requested;
     if (json.is_string())
-        settings.set(option, wordsFor(given, option, json.get<std::string>()));
+        settings.set(option, wordsFor(requested, option, json.get<std::string>()));
     else
-        settings = settingsFromJson(Json::object({{key, json}}).dump(), given);
+        settings = settingsFromJson(Json::object({{key, json}}).dump(), requested);
     return settings.valueOf(option);
 }
 
-Grid gridOf(const Json& json, const Settings& given) {
+Grid gridOf(const Json& json, const Settings& requested) {
     if (!json.is_object() || !json.contains("settings") || !json["settings"].is_object())
         throw std::runtime_error(quotedLine(json) + " is not an object that holds a \"settings\" object");
     for (const auto& [key, value] : json.items())
@@ -65,7 +65,8 @@ Grid gridOf(const Json& json, const Settings& given) {
             throw std::runtime_error(fmt::format("\"{}\": appears twice", key));
         std::vector<std::string> words;
         for (const Json& value : list)
-            if (std::string word = valueFrom(key, option, value, given); std::ranges::count(words, word) == 0)
+            if (std::string word = valueFrom(key, option, value, requested);
+                std::ranges::count(words, word) == 0)
                 words.push_back(std::move(word));
         grid.emplace_back(option, std::move(words));
     }
@@ -74,14 +75,14 @@ Grid gridOf(const Json& json, const Settings& given) {
 
 }  // namespace
 
-std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given) {
+std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& requested) {
     const bool isText = fileOrText.starts_with('{') || fileOrText.starts_with('[');
     const std::string name = isText ? "--grid" : "--grid " + fileOrText;
     try {
         const Json json = parseUniqueJson(isText ? fileOrText : textIn(fileOrText, json_bytes));
         std::vector<Grid> grids;
-        if (!json.is_array()) return {gridOf(json, given)};
-        for (const Json& one : json) grids.push_back(gridOf(one, given));
+        if (!json.is_array()) return {gridOf(json, requested)};
+        for (const Json& one : json) grids.push_back(gridOf(one, requested));
         if (grids.empty()) throw std::runtime_error("is an empty list; give objects with \"settings\"");
         return grids;
     } catch (const std::runtime_error& error) {

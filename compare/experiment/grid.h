@@ -12,6 +12,6 @@ namespace diptych::experiment {
 //   { "settings": { "gbuffer": ["compact", "full"], "size": ["1/2", "320x180"] } }
 // A list holds several grids. A single value needs no brackets. Throws std::runtime_error, one line naming
 // the file and the problem.
-std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& given);
+std::vector<Grid> readGrids(const std::string& fileOrText, const Settings& requested);
 
 }  // namespace diptych::experiment

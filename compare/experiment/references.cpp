@@ -26,17 +26,17 @@ Settings seenFrom(const Frame& reference, Settings settings) {
     return settings;
 }
 
-ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
+ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& requested,
                                     const std::vector<std::string>& cameras, const ImageChoice& choice,
                                     const RenderOptions& options, bool shadows) {
-    RenderOptions drawing = litOptions(options, shadows && given.shadows != Shadows::off);
+    RenderOptions drawing = litOptions(options, shadows && requested.shadows != Shadows::off);
     drawing.runs = 0;
     drawing.shadow_edges = shadows;
     ReferenceFrames references;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const double from = static_cast<double>(i), all = static_cast<double>(cameras.size());
         drawing.progress = options.progress.part(from / all, (from + 1) / all);
-        Settings settings = referenceSettings(given);
+        Settings settings = referenceSettings(requested);
         settings.camera = cameras[i];
         references.frames.push_back(renderer.draw(settings, drawing));
         references.errors.push_back(std::make_shared<ErrorsAgainst>(references.frames.back()));

@@ -22,7 +22,7 @@ struct ReferenceFrames {
 };
 
 // `shadows`: also renders channels that evaluate shadows, if shadows are on.
-ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& given,
+ReferenceFrames drawReferenceFrames(Renderer& renderer, const Settings& requested,
                                     const std::vector<std::string>& cameras, const ImageChoice& choice,
                                     const RenderOptions& options, bool shadows = true);
 

@@ -22,19 +22,19 @@ std::vector<std::string> sweptOptions() {
     return options;
 }
 
-std::pair<std::string, std::vector<std::string>> axis(const Settings& given, std::string_view option) {
-    return {std::string(option), sweptValues(given, option)};
+std::pair<std::string, std::vector<std::string>> axis(const Settings& requested, std::string_view option) {
+    return {std::string(option), sweptValues(requested, option)};
 }
 
 // Adds a start for every combination of the Settings that sweepPairs() crosses with all others. The other
 // Settings are varied from every start.
-void addStarts(const Settings& given, std::vector<Settings>& starts) {
-    starts.push_back(given);
+void addStarts(const Settings& requested, std::vector<Settings>& starts) {
+    starts.push_back(requested);
     for (const SweepPair& pair : sweepPairs()) {
         if (pair.b != each) continue;
         const std::vector<Settings> before = starts;
         for (const Settings& start : before)
-            for (const std::string& value : sweptValues(given, pair.a)) {
+            for (const std::string& value : sweptValues(requested, pair.a)) {
                 Settings other = start;
                 other.set(pair.a, value);
                 if (std::ranges::count(starts, other) == 0 && !isReference(other.path) &&
@@ -56,10 +56,10 @@ auto filterOf(const Settings& s) {
 
 class SweepBuilder {
 public:
-    explicit SweepBuilder(const Settings& given) : given_(given) {}
+    explicit SweepBuilder(const Settings& requested) : requested_(requested) {}
 
     void add(const std::vector<Change>& choices) {
-        Settings requested = given_;
+        Settings requested = requested_;
         for (const auto& [option, value] : choices) requested.set(option, value);
         const std::vector<Change> tried = changed(requested);
         if (isReference(requested.path))
@@ -68,17 +68,18 @@ public:
             if (const std::string_view why = ignoredBecause(requested, option); !why.empty())
                 skip({{"path", std::string(nameOf(requested.path))}, {option, value}}, std::string(why));
         // Without multiple scattering the reference uses another model.
-        if (given_.multiscatter == Multiscatter::off && requested.multiscatter != Multiscatter::off)
+        if (requested_.multiscatter == Multiscatter::off && requested.multiscatter != Multiscatter::off)
             return skip(tried, "needs a reference with multiple scattering: add --multiscatter energy");
         // A reference with one sample per pixel cannot show a benefit of filtering.
-        if (given_.reference_mode == ReferenceMode::surface && filterOf(requested) != filterOf(given_))
+        if (requested_.reference_mode == ReferenceMode::surface &&
+            filterOf(requested) != filterOf(requested_))
             return skip(tried,
                         "needs a reference that samples the scene: add --reference-mode scene and --spp");
         const Settings row = effectiveSettings(requested);
-        if (row.msaa > 1 && row.resolve != given_.resolve)
+        if (row.msaa > 1 && row.resolve != requested_.resolve)
             return skip(tried, fmt::format("needs a reference with the same resolve: add --resolve {}",
                                            nameOf(row.resolve)));
-        if (const std::string why = samplesProblem(referenceSettings(given_), row); !why.empty())
+        if (const std::string why = samplesProblem(referenceSettings(requested_), row); !why.empty())
             return skip({{"path", std::string(nameOf(row.path))}, {"msaa", row.valueOf("msaa")}}, why);
         if (const auto problem = row.problem()) return skip(tried, *problem);
         if (std::ranges::count(sweep_.rows, row) == 0) sweep_.rows.push_back(row);
@@ -90,7 +91,7 @@ private:
         std::vector<Change> choices;
         for (const Field& field : settingFields()) {
             const std::string value = requested.valueOf(field.option);
-            if (field.option == "path" || value != given_.valueOf(field.option))
+            if (field.option == "path" || value != requested_.valueOf(field.option))
                 choices.push_back({std::string(field.option), value});
         }
         return choices;
@@ -105,7 +106,7 @@ private:
         if (std::ranges::none_of(sweep_.skips, covers)) sweep_.skips.push_back({tried, reason});
     }
 
-    const Settings& given_;
+    const Settings& requested_;
     SweepRows sweep_;
 };
 
@@ -142,9 +143,9 @@ Cause causeOf(const SweepSkip& skip) {
 
 }  // namespace
 
-std::vector<Grid> defaultGrids(const Settings& given) {
+std::vector<Grid> defaultGrids(const Settings& requested) {
     std::vector<Settings> starts;
-    addStarts(given, starts);
+    addStarts(requested, starts);
     // A grid with the start's values.
     const auto from = [&](const Settings& start) {
         Grid grid;
@@ -155,12 +156,12 @@ std::vector<Grid> defaultGrids(const Settings& given) {
     std::vector<Grid> grids;
     for (const Settings& start : starts) grids.push_back(from(start));
     for (const std::string& option : sweptOptions())
-        if (isCrossedWithEach(option)) grids.push_back({axis(given, option)});
+        if (isCrossedWithEach(option)) grids.push_back({axis(requested, option)});
     for (const Settings& start : starts)
         for (const std::string& option : sweptOptions()) {
             if (isCrossedWithEach(option)) continue;
             grids.push_back(from(start));
-            grids.back().push_back(axis(given, option));
+            grids.back().push_back(axis(requested, option));
         }
     for (const Settings& start : starts)
         for (const SweepPair& pair : sweepPairs()) {
@@ -169,12 +170,12 @@ std::vector<Grid> defaultGrids(const Settings& given) {
                 continue;
             grids.push_back(from(start));
             for (const std::string_view option : {pair.a, pair.b})
-                grids.back().push_back(axis(given, option));
+                grids.back().push_back(axis(requested, option));
         }
     return grids;
 }
 
-SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
+SweepRows makeSweepRows(const Settings& requested, const std::vector<Grid>& grids) {
     double combinations = 0;
     for (const Grid& grid : grids) {
         double product = 1;
@@ -185,7 +186,7 @@ SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
         throw std::runtime_error(fmt::format(
             "--grid: {:.4g} combinations, more than the {} of one sweep; split it into several sweeps",
             combinations, maxCombinations));
-    SweepBuilder builder(given);
+    SweepBuilder builder(requested);
     for (const Grid& grid : grids) addProduct(grid, builder);
     SweepRows sweep = builder.done();
     if (sweep.rows.empty())
@@ -196,12 +197,12 @@ SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids) {
     return sweep;
 }
 
-SweepRows withoutRefused(SweepRows sweep, const Settings& given,
+SweepRows withoutRefused(SweepRows sweep, const Settings& requested,
                          const std::function<std::optional<std::string>(const Settings&)>& problem) {
     std::vector<Settings> drawn;
     for (Settings& row : sweep.rows)
         if (const auto why = problem(row))
-            sweep.skips.push_back({changesOf(row, given), *why});
+            sweep.skips.push_back({changesOf(row, requested), *why});
         else
             drawn.push_back(std::move(row));
     sweep.rows = std::move(drawn);
@@ -209,11 +210,11 @@ SweepRows withoutRefused(SweepRows sweep, const Settings& given,
     return sweep;
 }
 
-std::vector<Change> changesOf(const Settings& row, const Settings& given) {
+std::vector<Change> changesOf(const Settings& row, const Settings& requested) {
     std::vector<Change> choices{{"path", std::string(nameOf(row.path))}};
     for (const Field& field : settingFields()) {
         const std::string value = row.valueOf(field.option);
-        if (field.option != "path" && value != given.valueOf(field.option) &&
+        if (field.option != "path" && value != requested.valueOf(field.option) &&
             ignoredBecause(row, field.option).empty())
             choices.push_back({std::string(field.option), value});
     }
@@ -227,10 +228,10 @@ std::string describe(const std::vector<Change>& choices) {
     return text;
 }
 
-Settings referenceFor(const Settings& given, const std::vector<Settings>& rows) {
+Settings referenceFor(const Settings& requested, const std::vector<Settings>& rows) {
     const auto shadowed = [](const Settings& row) { return row.shadows != Shadows::off; };
-    Settings truth = given;
-    if (const auto row = std::ranges::find_if(rows, shadowed); !shadowed(given) && row != rows.end())
+    Settings truth = requested;
+    if (const auto row = std::ranges::find_if(rows, shadowed); !shadowed(requested) && row != rows.end())
         truth.shadows = row->shadows;
     if (std::ranges::any_of(rows, [](const Settings& row) { return row.multiscatter != Multiscatter::off; }))
         truth.multiscatter = Multiscatter::walk;

@@ -27,22 +27,22 @@ struct SweepRows {
 
 // Default grids without --grid. For each path, varies every Setting that it reads alone, and the pairs of
 // sweepPairs() together.
-std::vector<Grid> defaultGrids(const Settings& given);
+std::vector<Grid> defaultGrids(const Settings& requested);
 
 // Invalid and unsupported combinations become skips. So does a value that its path ignores; the row is
 // rendered without it. Throws std::runtime_error if no row is left or there are more than
 // maxCombinations.
-SweepRows makeSweepRows(const Settings& given, const std::vector<Grid>& grids);
+SweepRows makeSweepRows(const Settings& requested, const std::vector<Grid>& grids);
 inline constexpr std::size_t maxCombinations = 10'000;
 
 // Moves rows for which `problem` returns a reason, such as an unsupported format, to the skips. Throws
 // std::runtime_error if no row is left.
-SweepRows withoutRefused(SweepRows sweep, const Settings& given,
+SweepRows withoutRefused(SweepRows sweep, const Settings& requested,
                          const std::function<std::optional<std::string>(const Settings&)>& problem);
 
 // Settings of the reference: the given ones, with features of the rows. Shadows are on if any row has
 // them. Multiple scattering is the random walk if any row has it. Haze is ray marched if any row does so.
-Settings referenceFor(const Settings& given, const std::vector<Settings>& rows);
+Settings referenceFor(const Settings& requested, const std::vector<Settings>& rows);
 
 // Skips with one reason: values per option, or combinations, as text.
 struct SkipGroup {
@@ -52,7 +52,7 @@ struct SkipGroup {
 std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 
 // Settings of a row that differ from `given`. The path comes first and is always included.
-std::vector<Change> changesOf(const Settings& row, const Settings& given);
+std::vector<Change> changesOf(const Settings& row, const Settings& requested);
 std::string describe(const std::vector<Change>& choices);  // "deferred, gbuffer compact"
 
 }  // namespace diptych::experiment

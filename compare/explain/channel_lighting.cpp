@@ -47,10 +47,10 @@ ChannelLighting::ChannelLighting(Device& device, Renderer& renderer, const Frame
     }
 }
 
-ChannelShading& ChannelLighting::under(const Settings& given) {
+ChannelShading& ChannelLighting::under(const Settings& requested) {
     // Uses the baseline's values for Settings that are already in the channels, so that images which
     // differ only in these share a frame.
-    Settings settings = given;
+    Settings settings = requested;
     for (const std::string_view option : carried) settings.set(option, frames_[0]->settings.valueOf(option));
     if (!shading_ || !(*settings_ == settings)) {
         shading_.reset();

@@ -148,9 +148,9 @@ void addExplanations(const ExplanationQuestion& question, Device& device, Report
 
 std::vector<std::string> explainArguments(const std::string& scene, const Settings& settings, Path baseline,
                                           const std::vector<std::pair<std::string, std::string>>& test) {
-    Settings given = settings;
-    given.path = Settings().path;
-    std::vector<std::string> words = commandArguments("explain", scene, given);
+    Settings requested = settings;
+    requested.path = Settings().path;
+    std::vector<std::string> words = commandArguments("explain", scene, requested);
     if (!hasGBuffer(baseline))
         words = withOption(std::move(words), "--baseline", std::string(nameOf(baseline)));
     for (const auto& [option, value] : test)

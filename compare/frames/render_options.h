@@ -63,7 +63,7 @@ inline bool isLeftOut(const RenderOptions& options, gpu::uint layers, Channel mo
 }
 inline RenderOptions withoutAbsentLayers(RenderOptions options, gpu::uint layers) {
     std::erase_if(options.channels,
-                  [given = options, layers](Channel mode) { return isLeftOut(given, layers, mode); });
+                  [requested = options, layers](Channel mode) { return isLeftOut(requested, layers, mode); });
     return options;
 }
 

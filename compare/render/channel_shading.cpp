@@ -112,9 +112,9 @@ void SurfaceImages::set(std::size_t side, std::size_t channel, const Frame& fram
 }
 
 struct ChannelShading::State {
-    State(Device& device, SharedResources& shared, const SceneView& view, const Settings& given,
+    State(Device& device, SharedResources& shared, const SceneView& view, const Settings& requested,
           const SurfaceImages::State& channels)
-        : settings(litBy(given)),
+        : settings(litBy(requested)),
           images(channels),
           uploader(shared.uploader),
           frame(device, shared, view, settings),

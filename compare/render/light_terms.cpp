@@ -20,10 +20,10 @@ Settings withEnvironment(Settings settings, bool environment) {
 }  // namespace
 
 struct LightTerms::State {
-    State(Device& device, SharedResources& resources, const SceneView& view, const Settings& given,
+    State(Device& device, SharedResources& resources, const SceneView& view, const Settings& requested,
           bool environment)
         : shared(resources),
-          settings(withEnvironment(given, environment)),
+          settings(withEnvironment(requested, environment)),
           frame(device, shared, view, settings),
           lights(frame.view.lights.lights) {
         frame.passes.run();

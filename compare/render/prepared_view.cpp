@@ -41,12 +41,12 @@ std::optional<std::uint32_t> objectPixelLights(const Settings& settings) {
 }
 
 // Empty if no directional light casts shadows or shadows are off.
-std::optional<CastingSun> castingSun(const std::vector<Light>& given, const GpuLights& lights,
+std::optional<CastingSun> castingSun(const std::vector<Light>& requested, const GpuLights& lights,
                                      const Settings& settings) {
     if (settings.shadows == Shadows::off) return {};
-    const std::optional<std::size_t> sun = brightestSun(given);
+    const std::optional<std::size_t> sun = brightestSun(requested);
     for (gpu::uint i = 0; sun && i < lights.directional; ++i)
-        if (lights.sources[i] == *sun) return CastingSun{i, double{given[*sun].angle}};
+        if (lights.sources[i] == *sun) return CastingSun{i, double{requested[*sun].angle}};
     return {};
 }
 

@@ -46,11 +46,11 @@ std::size_t terminalColumns(std::FILE* stream) {
 
 bool hasColor(ColorChoice choice, std::FILE* stream) {
     if (choice != ColorChoice::automatic) return choice == ColorChoice::on;
-    const auto given = [](const char* name) {
+    const auto requested = [](const char* name) {
         const char* value = std::getenv(name);
         return std::string_view(value ? value : "");
     };
-    return given("NO_COLOR").empty() && !given("TERM").empty() && given("TERM") != "dumb" &&
+    return requested("NO_COLOR").empty() && !requested("TERM").empty() && requested("TERM") != "dumb" &&
            isatty(fileno(stream)) == 1;
 }
 

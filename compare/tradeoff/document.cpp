@@ -88,7 +88,7 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
     std::string out = fmt::format(
         "<article class=\"row-card\" data-row=\"{0}\"{1}><h3>{2}</h3><p class=\"soft\">row "
         "{0}</p>{3}<dl><dt>time, ms</dt><dd>{4:.4g} ({5:.4g} to {6:.4g})</dd>",
-        index + 1, hiddenUnless(shown), markup(describe(row, tradeoff.given)), images(tradeoff, row),
+        index + 1, hiddenUnless(shown), markup(describe(row, tradeoff.requested)), images(tradeoff, row),
         row[Measure::ms], row[Measure::ms_min], row[Measure::ms_max]);
     for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric)
         out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorMetrics[metric].title),
@@ -218,7 +218,7 @@ void checkTradeoffHtml(std::string_view page) {
 }
 
 std::string tradeoffHtml(const Tradeoff& tradeoff) {
-    const Size& size = tradeoff.given.size;
+    const Size& size = tradeoff.requested.size;
     std::vector<std::string> cameras;
     for (const experiment::Row& camera : tradeoff.rows.front().cameras) cameras.push_back(camera.camera);
     output::Document page{

@@ -52,8 +52,8 @@ Json jsonOf(const TradeoffRow& row) {
     return json;
 }
 
-TradeoffRow tradeoffRowFrom(const Json& given) {
-    const JsonAt<Json> json(given);
+TradeoffRow tradeoffRowFrom(const Json& requested) {
+    const JsonAt<Json> json(requested);
     return {experiment::rowFrom(json), json.at("drawing_ms").number(), json.at("picture").text(),
             json.at("error_picture").text()};
 }
@@ -63,8 +63,8 @@ Json tradeoffJson(const Tradeoff& tradeoff) {
     for (std::size_t i = 0; i < tradeoff.rows.size(); ++i) {
         const TradeoffRow& row = tradeoff.rows[i];
         Json json{{"row", i + 1},
-                  {"differs",
-                   row.renderer.empty() ? jsonOf(changesOf(row.settings, tradeoff.given)) : Json::object()}};
+                  {"differs", row.renderer.empty() ? jsonOf(changesOf(row.settings, tradeoff.requested))
+                                                   : Json::object()}};
         json.update(jsonOf(row));
         json["measure"] = measuringCommand(tradeoff, row);
         json["render"] = orNull(renderingCommand(tradeoff, row));
@@ -83,7 +83,7 @@ Json tradeoffJson(const Tradeoff& tradeoff) {
             {"scene", tradeoff.scene},
             {"cameras", tradeoff.cameras},
             {"runs", tradeoff.runs},
-            {"settings", jsonOf(tradeoff.given)},
+            {"settings", jsonOf(tradeoff.requested)},
             {"reference", {{"settings", jsonOf(tradeoff.reference)}, {"picture", tradeoff.reference_image}}},
             {"errors", metricsJson(errorMetrics)},
             {"shadow_figures", metricsJson(shadowMetrics)},

@@ -24,7 +24,7 @@ std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t metric, std::opti
                 {.x = row[Measure::ms],
                  .y = error.value,
                  .text = fmt::format("row {}: {}; {:.4g} ms, {} {}{}", i + 1,
-                                     describe(changesOf(row.settings, tradeoff.given)), row[Measure::ms],
+                                     describe(changesOf(row.settings, tradeoff.requested)), row[Measure::ms],
                                      title, page::number(error.value), best ? ", on the front" : ""),
                  .across = {row[Measure::ms_min], row[Measure::ms_max]},
                  .up = {error.low, error.high},

@@ -50,8 +50,8 @@ Tradeoff begun(const SweepQuestion& question, const Device& device) {
     Tradeoff tradeoff;
     tradeoff.scene = question.scene;
     tradeoff.cameras = question.cameras;
-    tradeoff.given = experiment::referenceFor(question.settings, question.rows.rows);
-    tradeoff.reference = referenceSettings(tradeoff.given);
+    tradeoff.requested = experiment::referenceFor(question.settings, question.rows.rows);
+    tradeoff.reference = referenceSettings(tradeoff.requested);
     tradeoff.device = reportDevice(device);
     tradeoff.runs = question.drawing.runs;
     return tradeoff;
@@ -94,7 +94,7 @@ experiment::ReferenceFrames Sweep::drawReferences() {
     drawing.progress = stage_.part(loaded_, referenced()).about(tradeoff_.scene + ": reference");
     drawing.keep = reference_checkpoints_.opener();
     experiment::ReferenceFrames references = experiment::drawReferenceFrames(
-        renderer_, tradeoff_.given, question_.cameras, question_.image, drawing);
+        renderer_, tradeoff_.requested, question_.cameras, question_.image, drawing);
     tradeoff_.cost.reference = msSince(uploaded);
     experiment::addNotes(tradeoff_.notes, references, rows(),
                          views_.at(viewRequest(question_.settings)).needs);
@@ -189,7 +189,7 @@ std::vector<SceneError> Sweep::drawExternally(std::span<const external::Renderer
         std::vector<Frame> frames;
         std::string problem;
         for (const Frame& reference : references_.frames) {
-            const Settings settings = experiment::seenFrom(reference, tradeoff_.given);
+            const Settings settings = experiment::seenFrom(reference, tradeoff_.requested);
             external::Attempt attempt =
                 external::drawExternally(renderer, scene_, views_.at(viewRequest(settings)), settings);
             problem = attempt.problem;

@@ -57,7 +57,7 @@ output::Row rowOf(const Tradeoff& tradeoff, std::size_t index, const std::string
 // A row's Settings with `option`, even at its given value.
 std::string settingsText(const Tradeoff& tradeoff, std::size_t row, std::string_view option) {
     const Settings& settings = tradeoff.rows[row].settings;
-    std::vector<Change> choices = changesOf(settings, tradeoff.given);
+    std::vector<Change> choices = changesOf(settings, tradeoff.requested);
     const auto named = [&](const Change& choice) { return choice.option == option; };
     if (std::ranges::none_of(choices, named))
         choices.insert(choices.begin() + 1, {std::string(option), settings.valueOf(option)});
@@ -74,7 +74,8 @@ output::Table sweepHead() {
 }
 
 output::Row sweepRow(const Tradeoff& tradeoff, std::size_t index, const Fronts& fronts) {
-    output::Row row = rowOf(tradeoff, index, describe(tradeoff.rows[index], tradeoff.given), sweepMeasures);
+    output::Row row =
+        rowOf(tradeoff, index, describe(tradeoff.rows[index], tradeoff.requested), sweepMeasures);
     std::vector<std::string_view> on;
     for (std::size_t f = 0; f < errorMetrics.size(); ++f)
         if (std::ranges::count(fronts[f], index) > 0) on.push_back(errorMetrics[f].title);
@@ -116,7 +117,7 @@ output::Table frontTable(const Tradeoff& tradeoff, std::size_t metric) {
     table.sortable = false;
     table.box = "box scroll";
     for (const std::size_t i : frontOf(tradeoff, metric))
-        table.rows.push_back(rowOf(tradeoff, i, describe(tradeoff.rows[i], tradeoff.given), shown));
+        table.rows.push_back(rowOf(tradeoff, i, describe(tradeoff.rows[i], tradeoff.requested), shown));
     return table;
 }
 
@@ -233,7 +234,7 @@ TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Setting
                              bool commands)
     : head_(sweepHead()), words_(std::string_view("settings").size()), commands_(commands) {
     for (const Settings& row : rows)
-        words_ = std::max(words_, describe(changesOf(row, tradeoff.given)).size());
+        words_ = std::max(words_, describe(changesOf(row, tradeoff.requested)).size());
     std::size_t width = 0;
     for (const Column& column : head_.columns)
         if (column.kind == Column::number) width += column.width + head_.gap;
@@ -254,7 +255,7 @@ std::string TradeoffTable::line(const Tradeoff& tradeoff, std::size_t index) con
     const TradeoffRow& row = tradeoff.rows[index];
     output::Table table = head_;
     table.rows = {sweepRow(tradeoff, index, {})};
-    if (const std::string words = describe(row, tradeoff.given); words.size() > words_)
+    if (const std::string words = describe(row, tradeoff.requested); words.size() > words_)
         table.rows[0].cells[1] = words.substr(0, words_ - 3) + "...";
     std::string line = inText(table, 1);
     if (commands_)

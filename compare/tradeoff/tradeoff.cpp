@@ -32,13 +32,13 @@ struct AgainstReference {
 AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& row) {
     AgainstReference against{row.settings, {}, true};
     nlohmann::ordered_json swept = nlohmann::ordered_json::object();
-    const Settings& given = tradeoff.given;
+    const Settings& requested = tradeoff.requested;
     for (const Field& field : settingFields()) {
         const std::string value = row.settings.valueOf(field.option);
-        Settings other = given;
+        Settings other = requested;
         other.set(field.option, value);
-        if (referenceSettings(other) == referenceSettings(given)) continue;
-        against.settings.set(field.option, given.valueOf(field.option));
+        if (referenceSettings(other) == referenceSettings(requested)) continue;
+        against.settings.set(field.option, requested.valueOf(field.option));
         if (ignoredBecause(row.settings, field.option).empty()) swept[std::string(field.option)] = value;
     }
     against.sameReference = swept.empty();
@@ -49,8 +49,8 @@ AgainstReference againstReference(const Tradeoff& tradeoff, const TradeoffRow& r
 
 }  // namespace
 
-std::string describe(const TradeoffRow& row, const Settings& given) {
-    return row.renderer.empty() ? describe(changesOf(row.settings, given))
+std::string describe(const TradeoffRow& row, const Settings& requested) {
+    return row.renderer.empty() ? describe(changesOf(row.settings, requested))
                                 : fmt::format("{}, external renderer", row.renderer);
 }
 
@@ -107,7 +107,7 @@ namespace {
 std::string commandOfRenderer(const char* command, const Tradeoff& tradeoff, const TradeoffRow& row,
                               const char* option, const char* value) {
     const std::vector<std::string> words = withOption(
-        withCameras(commandArguments(command, tradeoff.scene, tradeoff.given), tradeoff), option, value);
+        withCameras(commandArguments(command, tradeoff.scene, tradeoff.requested), tradeoff), option, value);
     return shellLine(withOption(words, "--renderer", fmt::format("{}={}", row.renderer, row.renderer_file)));
 }
 

@@ -57,7 +57,7 @@ struct SweepCost {
 struct Tradeoff {
     std::string scene;
     std::vector<std::string> cameras;  // as on the command line
-    Settings given, reference;
+    Settings requested, reference;
     ReportDevice device;
     int runs = 0;
     std::vector<TradeoffRow> rows;
@@ -69,7 +69,7 @@ struct Tradeoff {
 };
 
 // A row as text: Settings that differ from the given ones, or the external renderer.
-std::string describe(const TradeoffRow& row, const Settings& given);
+std::string describe(const TradeoffRow& row, const Settings& requested);
 
 // Indices of one path's rows, or of all rows but external ones; frontOf(): those on the Pareto front of
 // time and one error.

@@ -205,7 +205,7 @@ constexpr const char* byDefault = "default of diff";
 // Whether only equal values pass: without a tolerance, or where its metric is undefined.
 bool needsEquality(const ImageDiffOptions& options, const ImageChannelDiff& channel) {
     return !options.failing &&
-           (!options.tolerance_given || !(*channel.measurement)({options.metric, 0}).has_value());
+           (!options.tolerance_requested || !(*channel.measurement)({options.metric, 0}).has_value());
 }
 
 // The command line's rule for a channel that no rule names.
@@ -213,7 +213,7 @@ Rule ruleOf(const ImageDiffOptions& options, const ImageChannelDiff& channel) {
     Rule rule;
     rule.channel = channel.pair.name;
     rule.origin =
-        options.metric_given || options.tolerance_given || options.failing ? commandLine : byDefault;
+        options.metric_requested || options.tolerance_requested || options.failing ? commandLine : byDefault;
     Quantity quantity{options.metric, 0};
     const std::optional<double> value = (*channel.measurement)(quantity);
     const bool defined = options.failing || value;
@@ -245,7 +245,7 @@ void evaluateEquality(ImageChannelDiff& channel, const ImageDiffOptions& options
             fmt::format("{} of {} {}", different, counted(channel.measurement->plain().pixels, "pixel"),
                         different == 1 ? "differs" : "differ");
     }
-    if (different > 0 && options.tolerance_given)
+    if (different > 0 && options.tolerance_requested)
         decision.reason +=
             "; judge it by a rule, by a --metric defined for it, or leave it out with --channels";
 }
@@ -341,7 +341,7 @@ void evaluateChannels(ImageDiff& diff, const ImageDiffOptions& options) {
         evaluate(*channel, options);
         findWorst(diff, *channel);
     }
-    if (options.metric_given && options.rules.empty() &&
+    if (options.metric_requested && options.rules.empty() &&
         std::ranges::none_of(diff.channels, [&](const auto& channel) {
             return (*channel->measurement)({options.metric, 0}).has_value();
         })) {

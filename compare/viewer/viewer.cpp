@@ -62,7 +62,7 @@ public:
                 ++i;
             else
                 state_.counted.push_back(words[i]);
-        state_.follow = !options.size_given;
+        state_.follow = !options.size_requested;
         state_.edited = state_.subject.settings;
         state_.rig = state_.subject.settings.lights;
         if (options.pixel) {

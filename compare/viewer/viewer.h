@@ -17,7 +17,7 @@ namespace diptych::viewer {
 struct ViewerOptions {
     Subject subject;  // shown first
     Look look;
-    bool size_given = false;          // false: images fill the window
+    bool size_requested = false;      // false: images fill the window
     std::optional<PixelPlace> pixel;  // the pixel to break down and zoom to
     bool watch = false;               // reload a scene when its files change
     std::filesystem::path out;        // folder for screenshots; empty: the current one

@@ -210,10 +210,10 @@ std::vector<SweepPair> sweepPairs();
 
 // Values of Field::sweep for Settings::set(), in order; sizes as fractions of `given`. Empty if not swept.
 // Throws std::runtime_error for an unknown option.
-std::vector<std::string> sweptValues(const Settings& given, std::string_view option);
+std::vector<std::string> sweptValues(const Settings& requested, std::string_view option);
 // Converts a fraction such as "1/2" to a size relative to `given`, rounded and at least 1; returns other
 // words unchanged.
-std::string wordsFor(const Settings& given, std::string_view option, const std::string& word);
+std::string wordsFor(const Settings& requested, std::string_view option, const std::string& word);
 
 // All settings as JSON, by option name with _ instead of -; and its inverse. A missing key keeps the value
 // of `base`. An unknown key or a value of the wrong type throws std::runtime_error. The text may be the

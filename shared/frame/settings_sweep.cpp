@@ -28,7 +28,7 @@ bool readWhole(std::string_view text, int& value) {
 
 }  // namespace
 
-std::string wordsFor(const Settings& given, std::string_view option, const std::string& word) {
+std::string wordsFor(const Settings& requested, std::string_view option, const std::string& word) {
     const std::size_t slash = word.find('/');
     int part = 0, whole = 0;
     if (option != "size" || slash == std::string::npos ||
@@ -38,16 +38,16 @@ std::string wordsFor(const Settings& given, std::string_view option, const std::
     const auto side = [&](int pixels) {
         return std::max(std::llround(static_cast<double>(pixels) * part / whole), 1LL);
     };
-    return fmt::format("{}x{}", side(given.size.width), side(given.size.height));
+    return fmt::format("{}x{}", side(requested.size.width), side(requested.size.height));
 }
 
-std::vector<std::string> sweptValues(const Settings& given, std::string_view option) {
+std::vector<std::string> sweptValues(const Settings& requested, std::string_view option) {
     const Field& field = settingField(option);
     const bool isAll = field.sweep == "all";
     const std::string list = isAll ? acceptedValues(option) : std::string(field.sweep);
     std::vector<std::string> words;
     for (const std::string_view word : split(list, isAll ? '|' : ','))
-        words.push_back(wordsFor(given, option, std::string(word)));
+        words.push_back(wordsFor(requested, option, std::string(word)));
     return words;
 }
 

@@ -33,9 +33,9 @@ Path other(Path path) {
     return path == drawn_paths[0] ? drawn_paths[1] : drawn_paths[0];
 }
 
-void checkOption(Path path, const std::string& given, const std::string& option) {
+void checkOption(Path path, const std::string& requested, const std::string& option) {
     const auto refuse = [&](const std::string& why) {
-        throw std::runtime_error(fmt::format("{} {}: {}", sideOption(path), given, why));
+        throw std::runtime_error(fmt::format("{} {}: {}", sideOption(path), requested, why));
     };
     std::vector<std::string> known;
     for (const Field& field : settingFields()) known.emplace_back(field.option);
@@ -48,7 +48,8 @@ void checkOption(Path path, const std::string& given, const std::string& option)
     if (field.ignored.of(path).empty()) return;
     const Path reads = other(path);
     refuse(std::string(field.ignored.of(path)) +
-           (field.ignored.of(reads).empty() ? fmt::format("; {} {} sets it", sideOption(reads), given) : ""));
+           (field.ignored.of(reads).empty() ? fmt::format("; {} {} sets it", sideOption(reads), requested)
+                                            : ""));
 }
 
 // "ambient=1,0,0,shadows=off": a piece without = continues the previous value.
@@ -95,17 +96,17 @@ Settings SideSettings::of(const Settings& common, Path path) const {
     return settings;
 }
 
-SideSettings readSides(const std::array<std::string, 2>& given, Settings& common) {
+SideSettings readSides(const std::array<std::string, 2>& requested, Settings& common) {
     std::array<SideSettings::Words, 2> own;
-    for (std::size_t side = 0; side < given.size(); ++side) {
-        if (given.at(side).empty()) continue;
+    for (std::size_t side = 0; side < requested.size(); ++side) {
+        if (requested.at(side).empty()) continue;
         const Path path = drawn_paths.at(side);
-        for (auto& [option, value] : wordsOf(path, given.at(side))) {
+        for (auto& [option, value] : wordsOf(path, requested.at(side))) {
             const std::string word = fmt::format("{}={}", option, value);
             checkOption(path, word, option);
             if (find(own.at(side), option))
                 throw std::runtime_error(
-                    fmt::format("{} {}: {} is given twice", sideOption(path), given.at(side), option));
+                    fmt::format("{} {}: {} is given twice", sideOption(path), requested.at(side), option));
             Settings tried;
             try {
                 tried.set(option, value);

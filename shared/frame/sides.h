@@ -34,7 +34,7 @@ struct SideSettings {
 // the other side are as in `common`. Settings that the other path ignores (gbuffer, prepass) are set in
 // `common`, so that both are judged by the same values. Throws std::runtime_error, one line, naming the
 // input.
-SideSettings readSides(const std::array<std::string, 2>& given, Settings& common);
+SideSettings readSides(const std::array<std::string, 2>& requested, Settings& common);
 
 // Command line words that readSides() parses; empty without any.
 std::vector<std::string> wordsOf(const SideSettings& sides);

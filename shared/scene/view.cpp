@@ -166,10 +166,10 @@ View explicitView(const DefaultViewOf& defaultView, const Bounds& bounds, double
                   const std::string& choice) {
     View view;
     Camera& camera = view.camera = freeCamera(bounds);
-    const std::map<std::string, std::string> given = words(choice);
+    const std::map<std::string, std::string> requested = words(choice);
     glm::dvec3 eye(0), target = usableCentre(bounds);
-    if (!given.contains("eye")) eye = glm::dvec3(worldFromCamera(defaultView(), bounds, aspect)[3]);
-    for (const auto& [key, value] : given) {
+    if (!requested.contains("eye")) eye = glm::dvec3(worldFromCamera(defaultView(), bounds, aspect)[3]);
+    for (const auto& [key, value] : requested) {
         if (key == "eye")
             eye = pointOf(choice, key, value);
         else if (key == "target")

@@ -111,7 +111,7 @@ TEST(AuditFaults, StandardDepthBreaksWhereTheorySays) {
     const Quantity& near = quantityNamed("near");
     // At the image's centre, where most pixels are; the magnitude is far / near.
     const double distance = glm::distance(subject.point, subject.view.eye());
-    Case pushed = subject.given;
+    Case pushed = subject.original;
     near.push(pushed, subject, 1e3);
     const double far = pushed.camera().far;
     const double predicted = percent * far / (distance * 2 * 0x1p-25);

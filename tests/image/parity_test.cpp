@@ -178,9 +178,10 @@ TEST(DrawnTwice, LitAloneIsDrawnOnce) {
 }
 
 // With a light that both paths shade by one table, of `encodings`.
-void expectParity(const char* name, const Settings& given, std::initializer_list<GBufferEncoding> encodings) {
+void expectParity(const char* name, const Settings& requested,
+                  std::initializer_list<GBufferEncoding> encodings) {
     for (const GBufferEncoding encoding : encodings) {
-        Settings settings = given;
+        Settings settings = requested;
         settings.gbuffer = encoding;
         const std::vector<Frame> frames =
             bothPaths(uploaded(name).renderer, settings, {litModes.begin(), litModes.end()});

@@ -249,16 +249,16 @@ TEST(Audit, StepsComeBackFromJson) {
 
 TEST(Audit, EveryQuantityIsPushedFromWhereTheSceneIs) {
     const Subject subject = gallery();
-    const std::string glb = glbOf(*flattened(subject.given)), lights = lightsFileOf(subject.given);
-    const auto triangles = triangleCount(subject.given.scene);
+    const std::string glb = glbOf(*flattened(subject.original)), lights = lightsFileOf(subject.original);
+    const auto triangles = triangleCount(subject.original.scene);
     for (const Quantity& quantity : quantities()) {
         EXPECT_TRUE(std::ranges::is_sorted(quantity.magnitudes)) << quantity.name;
         if (!quantity.lacks(subject).empty()) continue;
-        Case pushed = subject.given;
+        Case pushed = subject.original;
         quantity.push(pushed, subject, quantity.magnitudes.back());
         const bool same =
-            pushed.settings == subject.given.settings && pushed.exposure == 0 &&
-            pushed.scene.materials.front().roughness == subject.given.scene.materials.front().roughness &&
+            pushed.settings == subject.original.settings && pushed.exposure == 0 &&
+            pushed.scene.materials.front().roughness == subject.original.scene.materials.front().roughness &&
             quantity.name != "roughness" && quantity.name != "normal_map" &&
             quantity.name != "texel" &&  // this file has no texture
             triangleCount(pushed.scene) == triangles && lightsFileOf(pushed) == lights &&
@@ -278,23 +278,24 @@ TEST(Audit, ASceneMovesAndGrowsAsAWhole) {
         return glm::dvec3(pose.instances.front().world_from_object[3]) -
                glm::dvec3(c.camera().world_from_camera[3]);
     };
-    Case moved = subject.given;
+    Case moved = subject.original;
     quantityOf("offset").push(moved, subject, 1e6);
     EXPECT_NEAR(glm::distance(glm::dvec3(moved.camera().world_from_camera[3]), subject.view.eye()), 1e6,
                 1e-3);
-    EXPECT_NEAR(glm::distance(relative(moved), relative(subject.given)), 0, 1e-8);
-    EXPECT_NEAR(glm::distance(moved.scene.lights.back().position, subject.given.scene.lights.back().position),
-                1e6, 1e-3);
-    Case grown = subject.given;
+    EXPECT_NEAR(glm::distance(relative(moved), relative(subject.original)), 0, 1e-8);
+    EXPECT_NEAR(
+        glm::distance(moved.scene.lights.back().position, subject.original.scene.lights.back().position), 1e6,
+        1e-3);
+    Case grown = subject.original;
     quantityOf("scale").push(grown, subject, 100);
-    EXPECT_NEAR(glm::distance(relative(grown), 100.0 * relative(subject.given)), 0, 1e-9);
-    EXPECT_NEAR(grown.camera().near, 100 * subject.given.camera().near, 1e-9);
-    Case baked = subject.given;
+    EXPECT_NEAR(glm::distance(relative(grown), 100.0 * relative(subject.original)), 0, 1e-9);
+    EXPECT_NEAR(grown.camera().near, 100 * subject.original.camera().near, 1e-9);
+    Case baked = subject.original;
     quantityOf("vertex").push(baked, subject, 1e4);
-    const Bounds before = worldBounds(subject.given.scene, poseAt(subject.given.scene, 0)),
+    const Bounds before = worldBounds(subject.original.scene, poseAt(subject.original.scene, 0)),
                  after = worldBounds(baked.scene, poseAt(baked.scene, 0));
     EXPECT_NEAR(glm::distance(before.centre(), after.centre()), 0, 1e-2);  // rounded to float32 at 1e4 m
-    Case cut = subject.given;
+    Case cut = subject.original;
     quantityOf("triangles").push(cut, subject, 1e5);
     EXPECT_GT(triangleCount(cut.scene), 5e4);
     const Bounds whole = worldBounds(cut.scene, poseAt(cut.scene, 0));
@@ -304,7 +305,7 @@ TEST(Audit, ASceneMovesAndGrowsAsAWhole) {
 // One triangle under one light suffices to show this failure.
 TEST(AuditReduce, TheSmallestSceneIsFound) {
     const Subject subject = gallery();
-    const Case whole = *flattened(subject.given);
+    const Case whole = *flattened(subject.original);
     const std::size_t all = triangleCount(whole.scene);
     ASSERT_GT(all, 100u);
     ASSERT_GT(whole.scene.lights.size(), 2u);
@@ -323,7 +324,7 @@ TEST(AuditReduce, TheSmallestSceneIsFound) {
         }
         return FailingPixel{lit && drawn, 5, 5, 1.0};
     };
-    const std::optional<Reduced> reduced = reduce(subject.given, test, 400);
+    const std::optional<Reduced> reduced = reduce(subject.original, test, 400);
     ASSERT_TRUE(reduced);
     EXPECT_EQ(triangleCount(reduced->smallest.scene), 1u);
     EXPECT_EQ(reduced->smallest.scene.lights.size(), 1u);
@@ -331,9 +332,9 @@ TEST(AuditReduce, TheSmallestSceneIsFound) {
     EXPECT_EQ(reduced->smallest.settings.size.width, 1);
     EXPECT_LE(tried, 400u);
     EXPECT_FALSE(reduce(
-        subject.given, [](const Case&) { return FailingPixel{}; }, 400));
+        subject.original, [](const Case&) { return FailingPixel{}; }, 400));
     tried = 0;
-    EXPECT_TRUE(reduce(subject.given, test, 10));
+    EXPECT_TRUE(reduce(subject.original, test, 10));
     EXPECT_EQ(tried, 10u);
 }
 
@@ -341,7 +342,7 @@ TEST(AuditReduce, TheSmallestSceneIsFound) {
 // between them is removed.
 TEST(AuditReduce, WhatLiesBetweenTwoIsRemoved) {
     Subject subject = gallery();
-    const Case whole = *flattened(subject.given);
+    const Case whole = *flattened(subject.original);
     const auto wide = std::ranges::find_if(
         whole.scene.meshes, [](const Mesh& mesh) { return mesh.primitives.front().indices.size() >= 3 * 8; });
     ASSERT_NE(wide, whole.scene.meshes.end());
@@ -365,7 +366,7 @@ TEST(AuditReduce, WhatLiesBetweenTwoIsRemoved) {
         }
         return FailingPixel{lights >= 2 && triangles >= 2, 5, 5, 1.0};
     };
-    const std::optional<Reduced> reduced = reduce(subject.given, test, 1000);
+    const std::optional<Reduced> reduced = reduce(subject.original, test, 1000);
     ASSERT_TRUE(reduced);
     EXPECT_EQ(reduced->smallest.scene.lights.size(), 2u);
     EXPECT_EQ(triangleCount(reduced->smallest.scene), 2u);
@@ -374,7 +375,7 @@ TEST(AuditReduce, WhatLiesBetweenTwoIsRemoved) {
 // The written files read back as the scene that was drawn.
 TEST(AuditReduce, AReducedSceneIsAFile) {
     const Subject subject = gallery();
-    Case flat = *flattened(subject.given);
+    Case flat = *flattened(subject.original);
     flat.scene.nodes.resize(2);
     flat.scene.meshes.resize(2);
     // All normals differ, so a swap would show.
@@ -399,10 +400,10 @@ TEST(AuditReduce, AReducedSceneIsAFile) {
             EXPECT_LT(glm::distance(a.normals[a.indices[k]], b.normals[b.indices[k]]), 1e-6f);
         }
         const Material &material = read.materials[static_cast<std::size_t>(a.material)],
-                       &given = flat.scene.materials[static_cast<std::size_t>(b.material)];
-        EXPECT_EQ(material.roughness, given.roughness);
-        EXPECT_EQ(material.base_color, given.base_color);
-        EXPECT_NEAR(material.emissive.g, given.emissive.g, 1e-6 * given.emissive.g);
+                       &original = flat.scene.materials[static_cast<std::size_t>(b.material)];
+        EXPECT_EQ(material.roughness, original.roughness);
+        EXPECT_EQ(material.base_color, original.base_color);
+        EXPECT_NEAR(material.emissive.g, original.emissive.g, 1e-6 * original.emissive.g);
     }
     ASSERT_EQ(read.cameras.size(), 1u);
     Settings settings = flat.settings;

@@ -55,13 +55,13 @@ RelationTolerance toleranceFor(Equality equality) {
 }
 
 // Turns a normal of two walls, and changes its light by `slope` times as much.
-bool passesTurned(const Frame& given, double slope) {
-    Frame changed = given;
+bool passesTurned(const Frame& original, double slope) {
+    Frame changed = original;
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.relative = 1e-5;
     changed.channels[Channel::normals].at(2, 3, 0) = 0.9e-5f;
     changed.channels[Channel::lit].at(2, 3, 0) *= static_cast<float>(1 + slope * 0.9e-5);
-    return evaluate(given, changed, tolerance).passes();
+    return evaluate(original, changed, tolerance).passes();
 }
 
 float above(float value, int ulps = 1) {
@@ -87,7 +87,7 @@ const Relation& relationOf(const std::string& name) {
 }
 
 Related changedBy(const std::string& name, const Subject& subject) {
-    Related both{subject.given, subject.given};
+    Related both{subject.original, subject.original};
     relationOf(name).change(both, subject);
     return both;
 }
@@ -95,14 +95,14 @@ Related changedBy(const std::string& name, const Subject& subject) {
 }  // namespace
 
 TEST(Relations, BitsAreTheSameOrNot) {
-    const Frame given = twoWalls();
-    EXPECT_TRUE(evaluate(given, given, toleranceFor(Equality::bits)).passes());
-    EXPECT_EQ(evaluate(given, given, toleranceFor(Equality::bits)).worst(), nullptr);
+    const Frame original = twoWalls();
+    EXPECT_TRUE(evaluate(original, original, toleranceFor(Equality::bits)).passes());
+    EXPECT_EQ(evaluate(original, original, toleranceFor(Equality::bits)).worst(), nullptr);
     for (const Channel mode : relatedChannels()) {
-        Frame changed = given;
+        Frame changed = original;
         float& value = changed.channels[mode].at(3, 2, debugMode(mode).width - 1);
         value = above(value);
-        const FrameResult result = evaluate(given, changed, toleranceFor(Equality::bits));
+        const FrameResult result = evaluate(original, changed, toleranceFor(Equality::bits));
         EXPECT_FALSE(result.passes()) << debugMode(mode).name;
         ASSERT_NE(result.worst(), nullptr);
         EXPECT_EQ(result.worst()->mode, mode);
@@ -113,190 +113,190 @@ TEST(Relations, BitsAreTheSameOrNot) {
 }
 
 TEST(Relations, OtherPipelinesMayRoundOtherwiseOnAGpu) {
-    const Frame given = twoWalls();
+    const Frame original = twoWalls();
     RelationTolerance tolerance = toleranceFor(Equality::bits);
     tolerance.ulps = 16;
-    Frame changed = given;
+    Frame changed = original;
     float& value = changed.channels[Channel::lit].at(3, 2, 1);
     value = above(value, 16);
-    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
-    EXPECT_EQ(evaluate(given, changed, tolerance).worst()->error, 16);
+    EXPECT_TRUE(evaluate(original, changed, tolerance).passes());
+    EXPECT_EQ(evaluate(original, changed, tolerance).worst()->error, 16);
     value = above(value);
-    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
+    EXPECT_FALSE(evaluate(original, changed, tolerance).passes());
 }
 
 // Light of a coat moves with the coat's own normal.
 TEST(Relations, ACoatsNormalMovesLight) {
-    Frame given = twoWalls();
-    given.channels[Channel::clearcoat_normal] = given.channels[Channel::normals];
-    Frame changed = given;
+    Frame original = twoWalls();
+    original.channels[Channel::clearcoat_normal] = original.channels[Channel::normals];
+    Frame changed = original;
     changed.channels[Channel::lit].at(3, 2, 0) *= 1 + 1e-4f;
-    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
+    EXPECT_FALSE(evaluate(original, changed, toleranceFor(Equality::rounding)).passes());
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.relative = 2e-5;  // of the normal
     changed.channels[Channel::clearcoat_normal].at(3, 2, 0) = 1e-5f;
-    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
-    for (Frame* frame : {&given, &changed}) frame->channels.erase(Channel::clearcoat_normal);
-    EXPECT_FALSE(evaluate(given, changed, tolerance).passes()) << "without a coat";
+    EXPECT_TRUE(evaluate(original, changed, tolerance).passes());
+    for (Frame* frame : {&original, &changed}) frame->channels.erase(Channel::clearcoat_normal);
+    EXPECT_FALSE(evaluate(original, changed, tolerance).passes()) << "without a coat";
 }
 
 // The base's lobe grants 12 times the normal's rotation, a sheen of roughness 0.1 204 times more.
 TEST(Relations, ASheensLightMovesWithTheNormal) {
-    Frame given = twoWalls();
-    std::ranges::fill(given.channels[Channel::sheen_roughness].data, 0.1f);
-    EXPECT_FALSE(passesTurned(given, 200)) << "a sheen without colour is none";
-    std::ranges::fill(given.channels[Channel::sheen_color].data, 0.5f);
-    EXPECT_TRUE(passesTurned(given, 200));
-    EXPECT_FALSE(passesTurned(given, 230));
+    Frame original = twoWalls();
+    std::ranges::fill(original.channels[Channel::sheen_roughness].data, 0.1f);
+    EXPECT_FALSE(passesTurned(original, 200)) << "a sheen without colour is none";
+    std::ranges::fill(original.channels[Channel::sheen_color].data, 0.5f);
+    EXPECT_TRUE(passesTurned(original, 200));
+    EXPECT_FALSE(passesTurned(original, 230));
     // No sheen is smoother than 0.045.
-    std::ranges::fill(given.channels[Channel::sheen_roughness].data, 0.0f);
-    EXPECT_TRUE(passesTurned(given, 900));
-    EXPECT_FALSE(passesTurned(given, 1100));
+    std::ranges::fill(original.channels[Channel::sheen_roughness].data, 0.0f);
+    EXPECT_TRUE(passesTurned(original, 900));
+    EXPECT_FALSE(passesTurned(original, 1100));
 }
 
 TEST(Relations, AFilmsLightMovesWithTheNormal) {
-    Frame given = twoWalls();
-    EXPECT_FALSE(passesTurned(given, 35));
-    std::ranges::fill(given.channels[Channel::iridescence].data, 0.5f);
-    EXPECT_TRUE(passesTurned(given, 35));
-    EXPECT_FALSE(passesTurned(given, 60));
+    Frame original = twoWalls();
+    EXPECT_FALSE(passesTurned(original, 35));
+    std::ranges::fill(original.channels[Channel::iridescence].data, 0.5f);
+    EXPECT_TRUE(passesTurned(original, 35));
+    EXPECT_FALSE(passesTurned(original, 60));
 }
 
 // A half's rounding of a thickness is relative to it.
 TEST(Relations, APackedThicknessIsGrantedItsPart) {
-    Frame given = twoWalls();
-    std::ranges::fill(given.channels[Channel::iridescence_thickness].data, 400.0f);
+    Frame original = twoWalls();
+    std::ranges::fill(original.channels[Channel::iridescence_thickness].data, 400.0f);
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.packed[Channel::iridescence_thickness] = 0x1p-11;
-    Frame changed = given;
+    Frame changed = original;
     changed.channels[Channel::iridescence_thickness].at(3, 2, 0) += 0.9f * 2 * 400 * 0x1p-11f;
-    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
+    EXPECT_TRUE(evaluate(original, changed, tolerance).passes());
     changed.channels[Channel::iridescence_thickness].at(3, 2, 0) += 0.2f * 2 * 400 * 0x1p-11f;
-    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
+    EXPECT_FALSE(evaluate(original, changed, tolerance).passes());
 }
 
 TEST(Relations, SumsAreGrantedByComponent) {
-    Frame given = twoWalls();
-    given.channels[Channel::lit].at(5, 5, 2) = 1e-6f;
-    Frame changed = given;
+    Frame original = twoWalls();
+    original.channels[Channel::lit].at(5, 5, 2) = 1e-6f;
+    Frame changed = original;
     changed.channels[Channel::lit].at(3, 2, 0) *= 1 + 5e-7f;
-    EXPECT_TRUE(evaluate(given, changed, toleranceFor(Equality::sums)).passes());
+    EXPECT_TRUE(evaluate(original, changed, toleranceFor(Equality::sums)).passes());
     // Small for the pixel, but large for its blue component.
     changed.channels[Channel::lit].at(5, 5, 2) = 1.1e-6f;
-    const FrameResult result = evaluate(given, changed, toleranceFor(Equality::sums));
+    const FrameResult result = evaluate(original, changed, toleranceFor(Equality::sums));
     EXPECT_FALSE(result.passes());
     EXPECT_EQ(result.worst()->x, 5);
     // Surface channels are not sums of light.
-    changed = given;
+    changed = original;
     changed.channels[Channel::albedo].at(3, 2, 0) = above(0.5f);
-    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::sums)).passes());
+    EXPECT_FALSE(evaluate(original, changed, toleranceFor(Equality::sums)).passes());
 }
 
 TEST(Relations, RoundingIsGrantedByWhatChangesToTheNextPixel) {
-    Frame given = twoWalls();
-    for (int y = 0; y < relatedHeight; ++y) given.channels[Channel::lit].at(4, y, 0) = 0.6f;
-    Frame changed = given;
+    Frame original = twoWalls();
+    for (int y = 0; y < relatedHeight; ++y) original.channels[Channel::lit].at(4, y, 0) = 0.6f;
+    Frame changed = original;
     changed.channels[Channel::lit].at(4, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
-    EXPECT_TRUE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
+    EXPECT_TRUE(evaluate(original, changed, toleranceFor(Equality::rounding)).passes());
     changed.channels[Channel::lit].at(4, 3, 0) += 0.2f * 0.1f * 0x1p-7f;
-    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
+    EXPECT_FALSE(evaluate(original, changed, toleranceFor(Equality::rounding)).passes());
     // No tolerance where neighbouring pixels are equal.
-    changed = given;
+    changed = original;
     changed.channels[Channel::lit].at(1, 3, 0) += 0.9f * 0.1f * 0x1p-7f;
-    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
+    EXPECT_FALSE(evaluate(original, changed, toleranceFor(Equality::rounding)).passes());
 }
 
 TEST(Relations, LightFollowsANormalAsFastAsItsLobe) {
-    const Frame given = twoWalls();
-    Frame changed = given;
+    const Frame original = twoWalls();
+    Frame changed = original;
     // Roughness 0.5, alpha 0.25: light may change by 12 times the normal's rotation.
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.relative = 1e-5;
     changed.channels[Channel::normals].at(2, 3, 0) = 0.9e-5f;
     changed.channels[Channel::lit].at(2, 3, 0) *= 1 + 11 * 0.9e-5f;
-    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
+    EXPECT_TRUE(evaluate(original, changed, tolerance).passes());
     changed.channels[Channel::lit].at(2, 3, 0) *= 1 + 5 * 0.9e-5f;
-    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
+    EXPECT_FALSE(evaluate(original, changed, tolerance).passes());
 }
 
 TEST(Relations, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
-    const Frame given = twoWalls();
+    const Frame original = twoWalls();
     const auto shows = [&](int x, int y) {
-        Frame changed = given;
+        Frame changed = original;
         changed.channels[Channel::material_id].at(x, y) = 1;
         changed.channels[Channel::depth].at(x, y) = 3;
         changed.channels[Channel::lit].at(x, y, 0) = 0.9f;
         return changed;
     };
     const FrameResult beside =
-        evaluate(given, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::rounding));
+        evaluate(original, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::rounding));
     EXPECT_TRUE(beside.passes());
     EXPECT_EQ(beside.aside, 1u);
     EXPECT_EQ(beside.max_aside, 8u) << "of few edges";
     // In the middle of a wall the changed pixel makes its own edge, but the given image has none there.
-    EXPECT_FALSE(evaluate(given, shows(2, 3), toleranceFor(Equality::rounding)).passes());
+    EXPECT_FALSE(evaluate(original, shows(2, 3), toleranceFor(Equality::rounding)).passes());
     // A whole column exceeds the allowed number of pixels.
-    Frame changed = given;
+    Frame changed = original;
     for (int y = 0; y < relatedHeight; ++y)
         for (const int x : {relatedWidth / 2 - 1, relatedWidth / 2})
             changed.channels[Channel::material_id].at(x, y) =
-                1 - given.channels.at(Channel::material_id).at(x, y);
-    EXPECT_GT(evaluate(given, changed, toleranceFor(Equality::rounding)).aside, 8u);
-    EXPECT_FALSE(evaluate(given, changed, toleranceFor(Equality::rounding)).passes());
+                1 - original.channels.at(Channel::material_id).at(x, y);
+    EXPECT_GT(evaluate(original, changed, toleranceFor(Equality::rounding)).aside, 8u);
+    EXPECT_FALSE(evaluate(original, changed, toleranceFor(Equality::rounding)).passes());
     // Bitwise equality has no tolerance at edges.
-    EXPECT_FALSE(evaluate(given, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::bits)).passes());
+    EXPECT_FALSE(evaluate(original, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::bits)).passes());
 }
 
 TEST(Relations, OfOneDepthEitherSurfaceMayBeSeen) {
-    const Frame given = twoWalls();
+    const Frame original = twoWalls();
     RelationTolerance tolerance = toleranceFor(Equality::bits);
     tolerance.reorders = true;
-    Frame changed = given;
+    Frame changed = original;
     changed.channels[Channel::material_id].at(2, 3) = 1;
     changed.channels[Channel::lit].at(2, 3, 0) = 0.9f;
-    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
-    EXPECT_EQ(evaluate(given, changed, tolerance).aside, 1u);
+    EXPECT_TRUE(evaluate(original, changed, tolerance).passes());
+    EXPECT_EQ(evaluate(original, changed, tolerance).aside, 1u);
     changed.channels[Channel::depth].at(2, 3) = 1.5f;
-    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
+    EXPECT_FALSE(evaluate(original, changed, tolerance).passes());
     // The same surface must have the same light.
-    changed = given;
+    changed = original;
     changed.channels[Channel::lit].at(2, 3, 0) = 0.9f;
-    EXPECT_FALSE(evaluate(given, changed, tolerance).passes());
+    EXPECT_FALSE(evaluate(original, changed, tolerance).passes());
 }
 
 TEST(Relations, AFilterMayWeightOtherwiseOfFewPixels) {
-    const Frame given = twoWalls();
+    const Frame original = twoWalls();
     RelationTolerance tolerance = toleranceFor(Equality::rounding);
     tolerance.textured = {true, false};
     tolerance.filter_step = 0x1p-7;
-    Frame changed = given;
+    Frame changed = original;
     changed.channels[Channel::albedo].at(2, 3, 1) += 0x1p-8f;
     changed.channels[Channel::lit].at(2, 3, 1) += 0x1p-8f;
-    EXPECT_TRUE(evaluate(given, changed, tolerance).passes());
-    EXPECT_EQ(evaluate(given, changed, tolerance).filtered, 1u);
+    EXPECT_TRUE(evaluate(original, changed, tolerance).passes());
+    EXPECT_EQ(evaluate(original, changed, tolerance).filtered, 1u);
     Frame wrong = changed;
     wrong.channels[Channel::albedo].at(2, 3, 1) += 0.25f;
-    EXPECT_FALSE(evaluate(given, wrong, tolerance).passes()) << "its light alone is excused";
-    Frame more = given;
+    EXPECT_FALSE(evaluate(original, wrong, tolerance).passes()) << "its light alone is excused";
+    Frame more = original;
     for (int y = 0; y < relatedHeight; ++y)
         for (int x = 0; x < 2; ++x) more.channels[Channel::albedo].at(x, y, 1) += 0x1p-8f;
-    EXPECT_FALSE(evaluate(given, more, tolerance).passes());
+    EXPECT_FALSE(evaluate(original, more, tolerance).passes());
     tolerance.textured = {false, false};
-    EXPECT_FALSE(evaluate(given, changed, tolerance).passes()) << "there is no texture";
+    EXPECT_FALSE(evaluate(original, changed, tolerance).passes()) << "there is no texture";
 }
 
 TEST(Relations, WhatIsNoNumberIsBroken) {
-    const Frame given = twoWalls();
+    const Frame original = twoWalls();
     for (const Equality equality : {Equality::bits, Equality::sums, Equality::rounding}) {
-        Frame changed = given;
+        Frame changed = original;
         changed.channels[Channel::lit].at(2, 3, 0) = std::numeric_limits<float>::quiet_NaN();
-        EXPECT_FALSE(evaluate(given, changed, toleranceFor(equality)).passes()) << nameOf(equality);
+        EXPECT_FALSE(evaluate(original, changed, toleranceFor(equality)).passes()) << nameOf(equality);
     }
     // A share of infinite light is infinite and must not allow anything.
-    Frame endless = given;
+    Frame endless = original;
     endless.channels[Channel::lit].at(2, 3, 0) = std::numeric_limits<float>::infinity();
     for (const Equality equality : {Equality::bits, Equality::sums, Equality::rounding})
-        EXPECT_FALSE(evaluate(endless, given, toleranceFor(equality)).passes()) << nameOf(equality);
+        EXPECT_FALSE(evaluate(endless, original, toleranceFor(equality)).passes()) << nameOf(equality);
 }
 
 TEST(Relations, ImagesAreMappedBack) {
@@ -325,7 +325,7 @@ TEST(Relations, EachChangesSomethingOrSaysWhyNot) {
     EXPECT_GE(relations().size(), 12u);
     std::set<std::string_view> names;
     const Subject subject = related("gallery");
-    const std::string given = glbOf(*flattened(subject.given));
+    const std::string original = glbOf(*flattened(subject.original));
     const auto vertices = [](const Case& of) {
         std::size_t count = 0;
         for (const Mesh& mesh : of.scene.meshes)
@@ -336,7 +336,7 @@ TEST(Relations, EachChangesSomethingOrSaysWhyNot) {
         EXPECT_TRUE(names.insert(relation.name).second) << relation.name;
         EXPECT_FALSE(relation.because.empty()) << relation.name;
         EXPECT_EQ(relation.lacks(subject), "") << relation.name;
-        Related both{subject.given, subject.given};
+        Related both{subject.original, subject.original};
         relation.change(both, subject);
         if (relation.name == "repeated") continue;
         const bool same =
@@ -347,9 +347,9 @@ TEST(Relations, EachChangesSomethingOrSaysWhyNot) {
             both.base.scene.materials.front().name == both.changed.scene.materials.front().name &&
             relation.name != "through_glb" && glbOf(*flattened(both.base)) == glbOf(*flattened(both.changed));
         EXPECT_FALSE(same) << relation.name;
-        const bool own = both.base.settings != subject.given.settings ||
-                         both.base.scene.images.size() != subject.given.scene.images.size() ||
-                         glbOf(*flattened(both.base)) != given;
+        const bool own = both.base.settings != subject.original.settings ||
+                         both.base.scene.images.size() != subject.original.scene.images.size() ||
+                         glbOf(*flattened(both.base)) != original;
         EXPECT_TRUE(!own || both.own_base) << relation.name;
     }
 }
@@ -368,7 +368,7 @@ TEST(Relations, WhatDoesNotApplyIsSaid) {
     settings.assign = Assignment::every;
     EXPECT_NE(lacks("light_kernel", related("gallery", settings)), "");
     Subject shadowed = related("gallery");
-    shadowed.given.settings.shadows = Shadows::pcf;
+    shadowed.original.settings.shadows = Shadows::pcf;
     for (const char* name : {"moved", "turned", "mirrored", "scaled", "tiles_shifted", "near_halved"})
         EXPECT_NE(lacks(name, shadowed), "") << name;
     Subject odd = related("gallery");
@@ -398,13 +398,13 @@ TEST(Relations, LightIsSplitPermutedAndAddedAsItSays) {
         for (const Light& light : of.scene.lights) sum += light.intensity;
         return sum;
     };
-    const double all = total(subject.given);
+    const double all = total(subject.original);
     const Related split = changedBy("lights_split", subject);
-    EXPECT_EQ(split.changed.scene.lights.size(), 2 * subject.given.scene.lights.size());
+    EXPECT_EQ(split.changed.scene.lights.size(), 2 * subject.original.scene.lights.size());
     EXPECT_EQ(total(split.changed), all);
     const Related permuted = changedBy("lights_permuted", subject);
-    EXPECT_EQ(permuted.changed.scene.lights.size(), subject.given.scene.lights.size());
-    EXPECT_EQ(permuted.changed.scene.lights.front().position, subject.given.scene.lights.back().position);
+    EXPECT_EQ(permuted.changed.scene.lights.size(), subject.original.scene.lights.size());
+    EXPECT_EQ(permuted.changed.scene.lights.front().position, subject.original.scene.lights.back().position);
     EXPECT_EQ(total(changedBy("light_doubled", subject).changed), 2 * all);
     EXPECT_EQ(total(changedBy("dark_lights", subject).changed), all);
     const Related far = changedBy("far_lights", subject);
@@ -418,7 +418,7 @@ TEST(Relations, LightIsSplitPermutedAndAddedAsItSays) {
 
 TEST(Relations, GeometryIsTheSameWrittenOtherwise) {
     const Subject subject = related("gallery");
-    const std::size_t triangles = triangleCount(flattened(subject.given)->scene);
+    const std::size_t triangles = triangleCount(flattened(subject.original)->scene);
     for (const char* name : {"draws_reversed", "meshes_split", "unindexed", "materials_permuted"})
         EXPECT_EQ(triangleCount(flattened(changedBy(name, subject).changed)->scene), triangles) << name;
     EXPECT_GT(triangleCount(flattened(changedBy("triangles_split", subject).changed)->scene), triangles);
@@ -429,7 +429,7 @@ TEST(Relations, GeometryIsTheSameWrittenOtherwise) {
 
 TEST(Relations, TwoFilesOfOneSceneAreRead) {
     const Subject subject = related("gallery");
-    const Case flat = *flattened(subject.given);
+    const Case flat = *flattened(subject.original);
     const std::string text = gltfOf(flat), binary = glbOf(flat);
     EXPECT_EQ(binary.substr(0, 4), "glTF");
     EXPECT_EQ(binary.size() % 4, 0u);

@@ -37,9 +37,9 @@ TEST(BenchSamples, EachPathWithoutBlendedSurfacesAndWithThem) {
     EXPECT_EQ(cases.groups[0].settings.size(), 12u);
     EXPECT_EQ(rows.size(), 12u) << "2 paths, 2 of blending, 3 of samples";
     EXPECT_TRUE(rows.contains({Path::deferred, Transparency::off, 8}));
-    Settings given;
-    given.transparency = Transparency::off;
-    EXPECT_EQ(makeBenchCases("builtin:glass", given, sampleOptions()).groups[0].settings.size(), 6u);
+    Settings requested;
+    requested.transparency = Transparency::off;
+    EXPECT_EQ(makeBenchCases("builtin:glass", requested, sampleOptions()).groups[0].settings.size(), 6u);
     const BenchOptions one = sampleOptions({"--paths", "forward_plus", "--assign", "tiled"});
     const BenchCases tiled = makeBenchCases("builtin:glass", Settings(), one);
     EXPECT_EQ(tiled.groups[0].settings.size(), 6u);
@@ -51,21 +51,21 @@ TEST(BenchSamples, EachPathWithoutBlendedSurfacesAndWithThem) {
 
 // Settings that only apply to MSAA are requested once; single-sample frames drop them.
 TEST(BenchSamples, WhatSamplesAreForIsLeftToThem) {
-    Settings given;
-    given.msaa_shading = MsaaShading::sample;
-    given.msaa_edges = MsaaEdges::all;
-    given.resolve = Resolve::tonemapped;
-    given.pixel_lights = 3;  // has no effect either, but not because of the sample count
+    Settings requested;
+    requested.msaa_shading = MsaaShading::sample;
+    requested.msaa_edges = MsaaEdges::all;
+    requested.resolve = Resolve::tonemapped;
+    requested.pixel_lights = 3;  // has no effect either, but not because of the sample count
     for (const int samples : {1, 4, 8}) {
-        const Settings sampled = withSamples(given, samples);
+        const Settings sampled = withSamples(requested, samples);
         EXPECT_EQ(sampled.msaa, samples);
         EXPECT_EQ(sampled.msaa_shading == MsaaShading::sample, samples > 1);
         EXPECT_EQ(sampled.msaa_edges == MsaaEdges::all, samples > 1);
         EXPECT_EQ(sampled.resolve == Resolve::tonemapped, samples > 1);
         EXPECT_EQ(sampled.pixel_lights, 3);
     }
-    given.pixel_lights = Settings().pixel_lights;
-    const BenchCases cases = makeBenchCases("builtin:glass", given, sampleOptions());
+    requested.pixel_lights = Settings().pixel_lights;
+    const BenchCases cases = makeBenchCases("builtin:glass", requested, sampleOptions());
     EXPECT_FALSE(cases.groups[0].settings.empty());
     for (const Settings& s : cases.groups[0].settings)
         EXPECT_EQ(s.msaa_shading == MsaaShading::sample, s.msaa > 1);

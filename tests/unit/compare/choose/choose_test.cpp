@@ -45,15 +45,15 @@ constexpr double near = 1.05, frames_of_each = 6;
 
 // In the command line's order: the given Settings first, then by the number of changed values.
 std::vector<Settings> candidatesOf(const RecordedSweep& sweep) {
-    Settings given;
-    given.size = {320, 180};
+    Settings requested;
+    requested.size = {320, 180};
     std::vector<std::pair<std::ptrdiff_t, Settings>> candidates;
     for (const RecordedRow& row : sweep.rows)
         candidates.emplace_back(std::ranges::count_if(settingFields(),
                                                       [&](const Field& field) {
                                                           return field.option != "path" &&
                                                                  row.settings.valueOf(field.option) !=
-                                                                     given.valueOf(field.option);
+                                                                     requested.valueOf(field.option);
                                                       }),
                                 row.settings);
     std::ranges::stable_sort(candidates, {}, [](const auto& candidate) { return candidate.first; });

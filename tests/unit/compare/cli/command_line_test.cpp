@@ -125,10 +125,10 @@ TEST(CommandLine, WhatIsShownIsLitUnlessAChannelOrTheHeatIsAskedFor) {
     EXPECT_EQ(shown({"--heat=true"}), Channel::light_count);
     EXPECT_EQ(shown({"--heat", "on"}), Channel::light_count);
     EXPECT_EQ(shown({"--heat", "off"}), Channel::lit);
-    EXPECT_TRUE(parsedAs<ImageGroup>({"render", "--debug", "lit"}).debug_given);
-    EXPECT_FALSE(parsedAs<ImageGroup>({"render", "--heat"}).debug_given);
-    EXPECT_TRUE(parsedAs<SettingsGroup>({"render", "--path", "deferred"}).path_given);
-    EXPECT_FALSE(parsedAs<SettingsGroup>({"render", "--seed", "1"}).path_given);
+    EXPECT_TRUE(parsedAs<ImageGroup>({"render", "--debug", "lit"}).debug_requested);
+    EXPECT_FALSE(parsedAs<ImageGroup>({"render", "--heat"}).debug_requested);
+    EXPECT_TRUE(parsedAs<SettingsGroup>({"render", "--path", "deferred"}).path_requested);
+    EXPECT_FALSE(parsedAs<SettingsGroup>({"render", "--seed", "1"}).path_requested);
 }
 
 TEST(CommandLine, DevicesParsesWhatAllCommandsShare) {
@@ -171,7 +171,7 @@ TEST(CommandLine, ASettingsFileComesFirstWhereverItStands) {
     EXPECT_EQ(options.settings.size, (Size{3, 2}));
     EXPECT_EQ(options.settings.seed, 7u);
     EXPECT_EQ(options.settings.path, Path::deferred);
-    EXPECT_FALSE(options.path_given);
+    EXPECT_FALSE(options.path_requested);
     EXPECT_EQ(options.cameras, std::vector<std::string>{"2"});
 
     std::ofstream(file) << R"({"sed": 7})";
@@ -196,17 +196,17 @@ TEST(CommandLine, ViewUnderstandsTheWordsOfAnyCompare) {
     const auto more = parsedAs<ViewLine>({"view", "--report", "diptych-report", "--watch"});
     EXPECT_EQ(more.report, "diptych-report");
     EXPECT_TRUE(more.watch);
-    EXPECT_FALSE(more.scene_given);
+    EXPECT_FALSE(more.scene_requested);
 }
 
 TEST(CommandLine, WhatIsAudited) {
     const auto o =
         parsedAs<SceneGroup>({"audit", "a.glb", "--quantity", "near,fov", "--require", "near=1e6,fov=0.1"});
-    EXPECT_FALSE(o.size_given);
-    EXPECT_FALSE(o.shadows_given);
-    const auto given = parsedAs<SettingsGroup>({"audit", "--size", "64x36", "--shadows", "off"});
-    EXPECT_TRUE(given.size_given);
-    EXPECT_TRUE(given.shadows_given);
+    EXPECT_FALSE(o.size_requested);
+    EXPECT_FALSE(o.shadows_requested);
+    const auto requested = parsedAs<SettingsGroup>({"audit", "--size", "64x36", "--shadows", "off"});
+    EXPECT_TRUE(requested.size_requested);
+    EXPECT_TRUE(requested.shadows_requested);
     const std::pair<std::vector<std::string>, const char*> wrong[] = {
         {{"audit", "--quantity", "ofset"}, "did you mean offset"},
         {{"audit", "--require", "ofset=1"}, "--require ofset: there is no such quantity"},
@@ -303,11 +303,12 @@ TEST(CommandLine, TheUsualToleranceOfDiffIsIdentity) {
     EXPECT_EQ(toleranceOf("relative"), 0);
     EXPECT_EQ(toleranceOf("ssim"), 1);
     EXPECT_EQ(toleranceOf("psnr"), std::numeric_limits<double>::infinity());
-    EXPECT_FALSE(parsedAs<DiffLine>({"diff", "a", "b"}).diff.tolerance_given);
-    EXPECT_FALSE(parsedAs<DiffLine>({"diff", "a", "b"}).diff.metric_given);
-    const auto given = parsedAs<DiffLine>({"diff", "a", "b", "--metric", "ssim", "--tolerance", "-0.5"}).diff;
-    EXPECT_EQ(given.tolerance, -0.5) << "of pictures that are each other's negatives";
-    EXPECT_TRUE(given.tolerance_given && given.metric_given);
+    EXPECT_FALSE(parsedAs<DiffLine>({"diff", "a", "b"}).diff.tolerance_requested);
+    EXPECT_FALSE(parsedAs<DiffLine>({"diff", "a", "b"}).diff.metric_requested);
+    const auto requested =
+        parsedAs<DiffLine>({"diff", "a", "b", "--metric", "ssim", "--tolerance", "-0.5"}).diff;
+    EXPECT_EQ(requested.tolerance, -0.5) << "of pictures that are each other's negatives";
+    EXPECT_TRUE(requested.tolerance_requested && requested.metric_requested);
 }
 
 TEST(CommandLine, ABaselineIsAPathOrAFile) {

@@ -88,10 +88,10 @@ SweepRows sensitiveUnder(const Material& material, bool even) {
     scene.meshes[0].primitives[0].material = 0;
     scene.environment = Environment{"sky", Image(16, 8, 3, even ? 1.0f : 0.0f)};
     if (!even) scene.environment->radiance.at(5, 2, 1) = 100;
-    Settings given;
-    given.env = "sky.exr";
-    given.multiscatter = Multiscatter::energy;
-    return sensitiveRows(makeSweepRows(given, defaultGrids(given)), {}, &scene);
+    Settings requested;
+    requested.env = "sky.exr";
+    requested.multiscatter = Multiscatter::energy;
+    return sensitiveRows(makeSweepRows(requested, defaultGrids(requested)), {}, &scene);
 }
 
 TEST(ExperimentSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
@@ -203,17 +203,19 @@ TEST(ExperimentSensitivity, GlassIsVariedByWhetherItIsDrawn) {
 }
 
 TEST(ExperimentSensitivity, HazeIsMarchedThroughWhereThereIsSome) {
-    Settings given;
-    given.haze = true;
-    const auto sensitive = [&] { return sensitiveRows(makeSweepRows(given, defaultGrids(given)), {}); };
+    Settings requested;
+    requested.haze = true;
+    const auto sensitive = [&] {
+        return sensitiveRows(makeSweepRows(requested, defaultGrids(requested)), {});
+    };
     EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps"), (std::set<std::string>{"0", "8", "32"}));
-    given.haze_density = 0;
+    requested.haze_density = 0;
     EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps"), std::set<std::string>{"0"});
     EXPECT_EQ(reasonOf(sensitive(), "haze-march-steps"), "there is no haze");
-    given.haze_density = 1;
-    given.haze_rayleigh = {};
+    requested.haze_density = 1;
+    requested.haze_rayleigh = {};
     EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps").size(), 3u) << "aerosols alone";
-    given.haze_mie = {};
+    requested.haze_mie = {};
     EXPECT_EQ(valuesOf(sensitive(), "haze-march-steps").size(), 1u);
 }
 

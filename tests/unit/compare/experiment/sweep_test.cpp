@@ -13,13 +13,13 @@
 namespace diptych::experiment {
 namespace {
 
-SweepRows defaultSweep(const Settings& given = {}) {
-    return makeSweepRows(given, defaultGrids(given));
+SweepRows defaultSweep(const Settings& requested = {}) {
+    return makeSweepRows(requested, defaultGrids(requested));
 }
 
-std::vector<std::string> wordsOfRows(const SweepRows& sweep, const Settings& given = {}) {
+std::vector<std::string> wordsOfRows(const SweepRows& sweep, const Settings& requested = {}) {
     std::vector<std::string> words;
-    for (const Settings& row : sweep.rows) words.push_back(describe(changesOf(row, given)));
+    for (const Settings& row : sweep.rows) words.push_back(describe(changesOf(row, requested)));
     return words;
 }
 
@@ -48,14 +48,14 @@ TEST(ExperimentSweep, TheDefaultStandsFirstAndNothingTwice) {
 
 // For any base Settings, each swept value of each Setting is a row for each path, or a skip with a reason.
 TEST(ExperimentSweep, EveryValueOfEverySettingIsDrawnOrHasAReason) {
-    const Settings given;
-    const SweepRows sweep = defaultSweep(given);
+    const Settings requested;
+    const SweepRows sweep = defaultSweep(requested);
     std::size_t tried = 0;
-    Settings::fields(given, [&](const Field& field, const auto&) {
-        for (const std::string& value : sweptValues(given, field.option)) {
+    Settings::fields(requested, [&](const Field& field, const auto&) {
+        for (const std::string& value : sweptValues(requested, field.option)) {
             if (field.option == "path") continue;
             for (const Path path : {Path::deferred, Path::forward_plus}) {
-                Settings asked = given;
+                Settings asked = requested;
                 asked.path = path;
                 asked.set(field.option, value);
                 const Change choice{std::string(field.option), asked.valueOf(field.option)};
@@ -84,14 +84,14 @@ TEST(ExperimentSweep, OneAtATimeAndPairsButNotTheProduct) {
 }
 
 TEST(ExperimentSweep, WhatAPathIgnoresIsSaidOnce) {
-    Settings given;
-    given.shadows = Shadows::off;
-    const SweepRows sweep = defaultSweep(given);
+    Settings requested;
+    requested.shadows = Shadows::off;
+    const SweepRows sweep = defaultSweep(requested);
     const std::vector<std::string> gbuffer = reasonsOf(sweep, "gbuffer"),
                                    prepass = reasonsOf(sweep, "prepass");
     EXPECT_EQ(gbuffer, (std::vector<std::string>(2, "forward_plus has no G-buffer"))) << "compact and full";
     EXPECT_EQ(prepass, (std::vector<std::string>(2, "deferred has no depth pre-pass"))) << "on and off";
-    EXPECT_FALSE(holds(wordsOfRows(sweep, given), "forward_plus, gbuffer full"));
+    EXPECT_FALSE(holds(wordsOfRows(sweep, requested), "forward_plus, gbuffer full"));
     EXPECT_TRUE(holds(wordsOfRows(defaultSweep()), "forward_plus, gbuffer full"))
         << "with shadows it is read";
 }
@@ -103,52 +103,52 @@ TEST(ExperimentSweep, TheReferenceIsNoRow) {
 }
 
 TEST(ExperimentSweep, ReferenceSamplesReachNoRow) {
-    Settings given;
-    given.spp = 64;
-    given.reference_mode = ReferenceMode::scene;
-    for (const Settings& row : defaultSweep(given).rows) EXPECT_EQ(row.problem(), std::nullopt);
+    Settings requested;
+    requested.spp = 64;
+    requested.reference_mode = ReferenceMode::scene;
+    for (const Settings& row : defaultSweep(requested).rows) EXPECT_EQ(row.problem(), std::nullopt);
 }
 
 // Against a ground truth with one sample per pixel, or with other weights, the mean of several samples
 // would count as an error.
 TEST(ExperimentSweep, SamplesAreTriedAgainstATruthOfSamples) {
     const Grid samples{{"msaa", {"1", "4"}}, {"resolve", {"linear", "tonemapped"}}};
-    Settings given;
-    EXPECT_EQ(wordsOfRows(makeSweepRows(given, {samples})), std::vector<std::string>{"forward_plus"});
+    Settings requested;
+    EXPECT_EQ(wordsOfRows(makeSweepRows(requested, {samples})), std::vector<std::string>{"forward_plus"});
     for (const auto& [mode, spp, use] : {std::tuple{"surface", "1", "use --reference-mode scene --spp 64"},
                                          {"scene", "3", "use --spp 64"}}) {
-        given.set("reference-mode", mode);
-        given.set("spp", spp);
+        requested.set("reference-mode", mode);
+        requested.set("spp", spp);
         bool said = false;
-        for (const std::string& reason : reasonsOf(makeSweepRows(given, {samples}), "msaa"))
+        for (const std::string& reason : reasonsOf(makeSweepRows(requested, {samples}), "msaa"))
             said = said || reason.find(use) != std::string::npos;
         EXPECT_TRUE(said) << use;
     }
-    given.set("spp", "64");
-    EXPECT_EQ(wordsOfRows(makeSweepRows(given, {samples}), given),
+    requested.set("spp", "64");
+    EXPECT_EQ(wordsOfRows(makeSweepRows(requested, {samples}), requested),
               (std::vector<std::string>{"forward_plus", "forward_plus, msaa 4"}));
-    given.set("msaa", "4");
-    given.set("resolve", "tonemapped");
-    EXPECT_EQ(wordsOfRows(makeSweepRows(given, {samples}), given),
+    requested.set("msaa", "4");
+    requested.set("resolve", "tonemapped");
+    EXPECT_EQ(wordsOfRows(makeSweepRows(requested, {samples}), requested),
               (std::vector<std::string>{"forward_plus, msaa 1, resolve linear", "forward_plus"}));
 }
 
 TEST(ExperimentSweep, SizesArePartsOfTheGivenOne) {
-    Settings given;
-    given.size = {641, 3};
+    Settings requested;
+    requested.size = {641, 3};
     const std::vector<std::string> expected{"160x1", "321x2", "481x2"};
-    EXPECT_EQ(sweptValues(given, "size"), expected);
-    EXPECT_EQ(wordsFor(given, "size", "1/1000"), "1x1") << "never empty";
-    EXPECT_EQ(wordsFor(given, "size", "8x4"), "8x4");
-    EXPECT_EQ(wordsFor(given, "gbuffer", "1/2"), "1/2") << "only of a size";
-    EXPECT_EQ(wordsFor(given, "size", "1/0"), "1/0") << "left for set() to refuse";
-    EXPECT_THROW(static_cast<void>(sweptValues(given, "gamma")), std::runtime_error);
+    EXPECT_EQ(sweptValues(requested, "size"), expected);
+    EXPECT_EQ(wordsFor(requested, "size", "1/1000"), "1x1") << "never empty";
+    EXPECT_EQ(wordsFor(requested, "size", "8x4"), "8x4");
+    EXPECT_EQ(wordsFor(requested, "gbuffer", "1/2"), "1/2") << "only of a size";
+    EXPECT_EQ(wordsFor(requested, "size", "1/0"), "1/0") << "left for set() to refuse";
+    EXPECT_THROW(static_cast<void>(sweptValues(requested, "gamma")), std::runtime_error);
 }
 
 TEST(ExperimentSweep, AGridIsItsProduct) {
-    const Settings given;
-    const SweepRows sweep =
-        makeSweepRows(given, {{{"path", {"deferred", "forward_plus"}}, {"size", {"64x36", "32x18"}}}, {}});
+    const Settings requested;
+    const SweepRows sweep = makeSweepRows(
+        requested, {{{"path", {"deferred", "forward_plus"}}, {"size", {"64x36", "32x18"}}}, {}});
     const std::vector<std::string> expected{"deferred, size 64x36", "deferred, size 32x18",
                                             "forward_plus, size 64x36", "forward_plus, size 32x18",
                                             "forward_plus"};
@@ -157,21 +157,21 @@ TEST(ExperimentSweep, AGridIsItsProduct) {
 }
 
 TEST(ExperimentSweep, OneThatIsIgnoredIsDrawnWithoutAndSaid) {
-    Settings given;
-    given.shadows = Shadows::off;
-    const SweepRows sweep = makeSweepRows(given, {{{"gbuffer", {"compact", "full"}}}});
-    EXPECT_EQ(wordsOfRows(sweep, given), std::vector<std::string>{"forward_plus"});
+    Settings requested;
+    requested.shadows = Shadows::off;
+    const SweepRows sweep = makeSweepRows(requested, {{{"gbuffer", {"compact", "full"}}}});
+    EXPECT_EQ(wordsOfRows(sweep, requested), std::vector<std::string>{"forward_plus"});
     EXPECT_EQ(sweep.skips.size(), 2u);
 }
 
 TEST(ExperimentSweep, WhatADeviceLacksIsLeftOutAndSaid) {
-    Settings given;
+    Settings requested;
     const auto noSteps = [](const Settings& row) -> std::optional<std::string> {
         if (row.depth_format != DepthFormat::d24) return {};
         return "there are no steps";
     };
     const auto asked = [&](const std::vector<std::string>& formats) {
-        return withoutRefused(makeSweepRows(given, {{{"depth-format", formats}}}), given, noSteps);
+        return withoutRefused(makeSweepRows(requested, {{{"depth-format", formats}}}), requested, noSteps);
     };
     const SweepRows sweep = asked({"d32f", "d24", "d16"});
     ASSERT_EQ(sweep.rows.size(), 2u);
@@ -247,14 +247,14 @@ TEST(ExperimentMultiscatter, IsSweptWhereItIsAskedForAgainstTheWalk) {
         for (const Settings& row : sweep.rows) values.insert(row.multiscatter);
         return values;
     };
-    Settings given;
-    const SweepRows defaults = defaultSweep(given);
+    Settings requested;
+    const SweepRows defaults = defaultSweep(requested);
     EXPECT_EQ(tried(defaults), std::set{Multiscatter::off});
-    EXPECT_EQ(referenceFor(given, defaults.rows), given);
-    given.multiscatter = Multiscatter::energy;
-    const SweepRows asked = defaultSweep(given);
+    EXPECT_EQ(referenceFor(requested, defaults.rows), requested);
+    requested.multiscatter = Multiscatter::energy;
+    const SweepRows asked = defaultSweep(requested);
     EXPECT_EQ(tried(asked), (std::set{Multiscatter::off, Multiscatter::energy, Multiscatter::fdez}));
-    const Settings truth = referenceFor(given, asked.rows);
+    const Settings truth = referenceFor(requested, asked.rows);
     EXPECT_EQ(truth.multiscatter, Multiscatter::walk);
     EXPECT_EQ(referenceSettings(truth).problem(), std::nullopt);
 }
@@ -266,14 +266,14 @@ TEST(ExperimentHaze, IsSweptWhereThereIsSomeAgainstTheIntegral) {
         for (const Settings& row : sweep.rows) values.insert(row.haze_march_steps);
         return values;
     };
-    Settings given;
-    const SweepRows defaults = defaultSweep(given);
+    Settings requested;
+    const SweepRows defaults = defaultSweep(requested);
     EXPECT_EQ(tried(defaults), std::set{0});
-    EXPECT_EQ(referenceFor(given, defaults.rows), given);
-    given.haze = true;
-    const SweepRows asked = defaultSweep(given);
+    EXPECT_EQ(referenceFor(requested, defaults.rows), requested);
+    requested.haze = true;
+    const SweepRows asked = defaultSweep(requested);
     EXPECT_EQ(tried(asked), (std::set{0, 8, 32}));
-    EXPECT_GT(referenceFor(given, asked.rows).haze_march_steps, 0);
+    EXPECT_GT(referenceFor(requested, asked.rows).haze_march_steps, 0);
 }
 
 // Against one sample per pixel, filtered roughness would always count as an error.
@@ -284,26 +284,26 @@ TEST(ExperimentSpecularAa, IsSweptAgainstSamplesOfTheSceneAlone) {
         return values;
     };
     using enum SpecularNormals;
-    Settings given;
-    EXPECT_EQ(tried(defaultSweep(given)), (std::set{std::pair(false, geometry)}));
-    given.spec_aa = true;
-    EXPECT_EQ(tried(defaultSweep(given)), (std::set{std::pair(true, geometry)}));
-    given.spec_aa = false;
-    given.reference_mode = ReferenceMode::scene;
-    EXPECT_EQ(tried(defaultSweep(given)),
+    Settings requested;
+    EXPECT_EQ(tried(defaultSweep(requested)), (std::set{std::pair(false, geometry)}));
+    requested.spec_aa = true;
+    EXPECT_EQ(tried(defaultSweep(requested)), (std::set{std::pair(true, geometry)}));
+    requested.spec_aa = false;
+    requested.reference_mode = ReferenceMode::scene;
+    EXPECT_EQ(tried(defaultSweep(requested)),
               (std::set{std::pair(false, geometry), std::pair(true, geometry), std::pair(true, mapped)}));
 }
 
 // A sweep over shadows is compared with the shadowed ground truth, whatever the given Settings.
 TEST(ExperimentSweep, TheTruthHasShadowsWhereAnyRowDoes) {
-    Settings given;
-    given.shadows = Shadows::off;
-    EXPECT_EQ(referenceFor(given, {given, given}), given);
-    Settings shadowed = given;
+    Settings requested;
+    requested.shadows = Shadows::off;
+    EXPECT_EQ(referenceFor(requested, {requested, requested}), requested);
+    Settings shadowed = requested;
     shadowed.shadows = Shadows::evsm;
-    EXPECT_NE(referenceFor(given, {given, shadowed}).shadows, Shadows::off);
-    EXPECT_EQ(referenceSettings(referenceFor(given, {given, shadowed})).shadows, Shadows::pcf);
-    EXPECT_EQ(referenceFor(shadowed, {given}), shadowed);
+    EXPECT_NE(referenceFor(requested, {requested, shadowed}).shadows, Shadows::off);
+    EXPECT_EQ(referenceSettings(referenceFor(requested, {requested, shadowed})).shadows, Shadows::pcf);
+    EXPECT_EQ(referenceFor(shadowed, {requested}), shadowed);
 }
 
 }  // namespace

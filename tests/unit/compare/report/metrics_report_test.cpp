@@ -199,7 +199,7 @@ TEST(PrintedMetrics, OfTwoFilesStandUnderTheirKeysAndHeads) {
     writeExr(here / "b.exr", {{{"R", "G", "B"}, &kept}});
     ImageDiffOptions options;
     options.metric = "p999";
-    options.metric_given = true;
+    options.metric_requested = true;
     const ImageDiff diff = diffImages((here / "a.exr").string(), (here / "b.exr").string(), options);
     const auto json = nlohmann::json::parse(imageDiffJson(diff))["channels"][0];
     std::vector<double> pixels = errorsOf(s).absolute, components = errorsOf(s).components;

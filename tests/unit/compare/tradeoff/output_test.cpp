@@ -47,7 +47,7 @@ Tradeoff several() {
                      row("deferred", "size", "320x180", 1, {0.2, 3, 4}),
                      row("deferred", "gbuffer", "compact", 5, {inf, inf, inf})};
     for (TradeoffRow& made : tradeoff.rows) made.settings.camera = "0";
-    tradeoff.given.camera = "0";
+    tradeoff.requested.camera = "0";
     tradeoff.rows[1].warnings = {"one, \"two\""};
     tradeoff.skips = {{{{"path", "deferred"}, {"msaa-edges", "all"}},
                        "--msaa-edges all has no effect without --msaa 4; use exact"}};
@@ -130,15 +130,15 @@ TEST(TradeoffOutput, CommandsAreOfTheRow) {
     EXPECT_EQ(full.settings, tradeoff.rows[3].settings);
     EXPECT_EQ(gridOf(3), R"({"settings":{}})");
     const SceneGroup half = parse(2);
-    EXPECT_EQ(half.settings.size, tradeoff.given.size) << "the reference's";
+    EXPECT_EQ(half.settings.size, tradeoff.requested.size) << "the reference's";
     EXPECT_EQ(gridOf(2), R"({"settings":{"size":"320x180"}})");
     EXPECT_EQ(parsedAs<SettingsGroup>(wordsIn(renderingCommand(tradeoff, tradeoff.rows[2]))).settings,
               tradeoff.rows[2].settings);
     // Settings that the reference depends on stay as given, except in the row itself.
     tradeoff.rows[1].settings.shadows = Shadows::off;
-    tradeoff.given.spp = 16;
+    tradeoff.requested.spp = 16;
     const SceneGroup shadowed = parse(1);
-    EXPECT_EQ(shadowed.settings.shadows, tradeoff.given.shadows);
+    EXPECT_EQ(shadowed.settings.shadows, tradeoff.requested.shadows);
     EXPECT_EQ(shadowed.settings.spp, 16);
     EXPECT_EQ(gridOf(1), R"({"settings":{"shadows":"off"}})");
     EXPECT_EQ(comparingCommand(tradeoff, tradeoff.rows[1]), "") << "its reference would have none";

@@ -52,12 +52,12 @@ TEST(TradeoffSamples, DeferredAloneChoosesThem) {
 
 TEST(TradeoffSamples, TheTableHasTheRowsThatChoose) {
     Tradeoff tradeoff;
-    tradeoff.given.path = Path::deferred;
-    tradeoff.given.msaa = 4;
+    tradeoff.requested.path = Path::deferred;
+    tradeoff.requested.msaa = 4;
     EXPECT_TRUE(sampleBlocks(tradeoff).empty());
     for (const MsaaEdges edges : {MsaaEdges::exact, MsaaEdges::similar}) {
         TradeoffRow row;
-        row.settings = tradeoff.given;
+        row.settings = tradeoff.requested;
         row.settings.msaa_edges = edges;
         row.measured.set(FrameTime{12, 11, 13, 5});
         if (edges == MsaaEdges::similar)

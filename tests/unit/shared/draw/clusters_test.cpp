@@ -45,42 +45,42 @@ std::vector<std::array<std::uint32_t, 3>> sorted(const std::vector<std::uint32_t
 
 TEST(Clusters, HoldEveryTriangleOnceWithItsCornersInOrder) {
     for (const std::size_t count : {1, 64, 65, 1000}) {
-        const Triangles given = soup(count);
-        std::vector<std::uint32_t> indices = given.indices;
-        const std::vector<Cluster> clusters = cutIntoClusters(given.positions, indices);
-        EXPECT_EQ(sorted(indices), sorted(given.indices));
+        const Triangles requested = soup(count);
+        std::vector<std::uint32_t> indices = requested.indices;
+        const std::vector<Cluster> clusters = cutIntoClusters(requested.positions, indices);
+        EXPECT_EQ(sorted(indices), sorted(requested.indices));
         std::uint32_t next = 0;
         for (const Cluster& cluster : clusters) {
             EXPECT_EQ(cluster.first_index, next);
             next += cluster.index_count;
             EXPECT_LE(cluster.index_count, 3 * clusterTriangles);
             EXPECT_GE(cluster.index_count, 3 * std::min(count, clusterTriangles / 2));
-            glm::vec3 min = given.positions[indices[cluster.first_index]], max = min;
+            glm::vec3 min = requested.positions[indices[cluster.first_index]], max = min;
             for (std::uint32_t i = 0; i < cluster.index_count; ++i) {
                 if (i % 3 == 0 && i > 0) {
                     EXPECT_LT(indices[cluster.first_index + i - 3], indices[cluster.first_index + i]);
                 }
-                min = glm::min(min, given.positions[indices[cluster.first_index + i]]);
-                max = glm::max(max, given.positions[indices[cluster.first_index + i]]);
+                min = glm::min(min, requested.positions[indices[cluster.first_index + i]]);
+                max = glm::max(max, requested.positions[indices[cluster.first_index + i]]);
             }
             EXPECT_EQ(cluster.min, min);
             EXPECT_EQ(cluster.max, max);
         }
-        EXPECT_EQ(next, given.indices.size());
+        EXPECT_EQ(next, requested.indices.size());
     }
 }
 
 // Neighbours are together: the volume of all meshlets' boxes is a small fraction of the whole.
 TEST(Clusters, AreSmall) {
-    Triangles given = soup(4096);
-    std::ranges::sort(given.indices);
-    for (std::size_t i = 0; i < given.positions.size(); i += 3) {
-        const glm::vec3 at = given.positions[i];
-        given.positions[i + 1] = at + glm::vec3(0.01f, 0, 0);
-        given.positions[i + 2] = at + glm::vec3(0, 0, 0.01f);
+    Triangles requested = soup(4096);
+    std::ranges::sort(requested.indices);
+    for (std::size_t i = 0; i < requested.positions.size(); i += 3) {
+        const glm::vec3 at = requested.positions[i];
+        requested.positions[i + 1] = at + glm::vec3(0.01f, 0, 0);
+        requested.positions[i + 2] = at + glm::vec3(0, 0, 0.01f);
     }
     double sum = 0;
-    for (const Cluster& cluster : cutIntoClusters(given.positions, given.indices)) {
+    for (const Cluster& cluster : cutIntoClusters(requested.positions, requested.indices)) {
         const glm::vec3 side = cluster.max - cluster.min;
         sum += double{side.x} * double{side.z};
     }
