@@ -92,7 +92,7 @@ void moveAll(Case& pushed, const glm::dmat4& move) {
     for (Node& node : scene.nodes)
         if (node.parent < 0) node.parent = root;
     scene.nodes.push_back({.name = "moved", .parent_from_node = move});
-    const auto moved = [&](const glm::dvec3& place) { return glm::dvec3(move * glm::dvec4(place, 1)); };
+    const auto moved = [&](const glm::dvec3& location) { return glm::dvec3(move * glm::dvec4(location, 1)); };
     for (Light& light : scene.lights) light.position = moved(light.position);
     glm::dmat4& camera = pushed.camera().world_from_camera;
     camera[3] = glm::dvec4(moved(glm::dvec3(camera[3])), 1);

@@ -180,7 +180,7 @@ std::vector<Block> blocksOf(const QuantityAudit& of) {
                                                     magnitudeText(of.original, quantity)),
                                         "soft"},
                               {rangesOf(std::span(&of, 1)), Block::terminal},
-                              output::Drawing{auditPlot(of, PlotPlace::page)},
+                              output::Drawing{auditPlot(of, PlotTarget::page)},
                               remarksOn(of)};
     for (const Failure& failure : of.failures) {
         output::List list{{failure.text}, "how again"};
@@ -230,7 +230,7 @@ std::string writeAudit(const Audit& audit, const std::filesystem::path& path, bo
         for (const Step& step : quantity.steps)
             for (const Outcome& outcome : step.outcomes) rows.push_back(&outcome);
         if (!quantity.steps.empty())
-            folder.put(std::string(quantity.quantity->name) + ".svg", auditPlot(quantity, PlotPlace::file));
+            folder.put(std::string(quantity.quantity->name) + ".svg", auditPlot(quantity, PlotTarget::file));
     }
     folder.put("audit.csv", inCsv(stepTable(audit)));
     folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(rows)));

@@ -24,15 +24,15 @@ constexpr int border = 6;
 
 // Transforms scene, lights and camera: world' = place * world, whose 3x3 part is orthogonal. If it
 // mirrors, so does the image.
-void placeAll(Case& placed, const glm::dmat4& place) {
-    moveAll(placed, place);
-    const glm::dmat3 turn(place);
+void placeAll(Case& placed, const glm::dmat4& transform) {
+    moveAll(placed, transform);
+    const glm::dmat3 turn(transform);
     for (Light& light : placed.scene.lights) {
         light.direction = turn * light.direction;
         light.axis = turn * light.axis;
     }
     glm::dmat4& camera = placed.camera().world_from_camera;
-    for (int c = 0; c < 3; ++c) camera[c] = place * camera[c];
+    for (int c = 0; c < 3; ++c) camera[c] = transform * camera[c];
     if (glm::determinant(turn) < 0) camera[0] = -camera[0];
 }
 

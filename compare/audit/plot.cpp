@@ -26,7 +26,7 @@ std::string wordsOf(const QuantityAudit& audit, const Step& step, std::size_t se
 
 }  // namespace
 
-std::string auditPlot(const QuantityAudit& audit, PlotPlace place) {
+std::string auditPlot(const QuantityAudit& audit, PlotTarget place) {
     const Quantity& quantity = *audit.quantity;
     PlotPanel panel{
         .across = {fmt::format("{}{}{}", quantity.name, quantity.unit.empty() ? "" : ", ", quantity.unit)},

@@ -75,7 +75,7 @@ void pushCaster(Case& pushed, const Subject& subject, double metres) {
     const glm::dvec3 beside =
         glm::normalize(glm::cross(up, std::abs(up.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
     const double radius = subject.radius();
-    const glm::dvec3 place = subject.bounds.centre() + up * (radius + metres) + beside * (0.5 * radius);
+    const glm::dvec3 position = subject.bounds.centre() + up * (radius + metres) + beside * (0.5 * radius);
     const double size = 1e-3 * radius;
     Primitive triangle;
     for (const glm::dvec3& corner : {glm::dvec3(0), size * beside, size * glm::cross(up, beside)}) {
@@ -89,7 +89,7 @@ void pushCaster(Case& pushed, const Subject& subject, double metres) {
     triangle.material = static_cast<int>(scene.materials.size());
     scene.materials.push_back(black);
     glm::dmat4 there(1);
-    there[3] = glm::dvec4(place, 1);
+    there[3] = glm::dvec4(position, 1);
     scene.nodes.push_back(
         {.name = "caster", .parent_from_node = there, .mesh = static_cast<int>(scene.meshes.size())});
     scene.meshes.push_back({.name = "caster", .primitives = {std::move(triangle)}});

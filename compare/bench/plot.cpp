@@ -144,7 +144,7 @@ Plot barsPlot(const Bench& bench, const std::vector<Size>& sizes) {
 
 }  // namespace
 
-std::string benchPlot(const Bench& bench, PlotPlace place) {
+std::string benchPlot(const Bench& bench, PlotTarget place) {
     if (bench.options.table == BenchTable::growth) return svgOf(growthPlot(bench), place);
     if (bench.options.table == BenchTable::layers) return svgOf(layersPlot(bench), place);
     std::vector<Size> sizes;

@@ -157,7 +157,7 @@ std::string benchHtml(const Bench& bench) {
     if (!bench.rows.empty()) {
         page.files.emplace_back("bench.svg");
         page.blocks.emplace_back(
-            output::Box{"box drawn", {output::Drawing{benchPlot(bench, PlotPlace::page)}}});
+            output::Box{"box drawn", {output::Drawing{benchPlot(bench, PlotTarget::page)}}});
         rows.blocks = {Heading{2, "Every mode"}, modeTable(bench)};
     }
     page.blocks.emplace_back(rows);
@@ -170,7 +170,7 @@ std::string writeBench(const Bench& bench, const std::filesystem::path& path, bo
     ListedFolder folder(path, benchManifest, force);
     folder.put("index.html", benchHtml(bench));
     folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(allRows(bench))));
-    if (!bench.rows.empty()) folder.put("bench.svg", benchPlot(bench, PlotPlace::file));
+    if (!bench.rows.empty()) folder.put("bench.svg", benchPlot(bench, PlotTarget::file));
     return folder.finish(benchJson(bench));
 }
 

@@ -210,7 +210,7 @@ private:
             inEachScene(0.7, 1, "finalists of all scenes", [&](std::size_t scene) {
                 std::vector<Settings> drawn = frames;
                 // Each round starts and ends with the scene's own choice, unless it is a finalist.
-                const bool chose = own_[scene]->chosen && ownPlace(scene, finalists) == n;
+                const bool chose = own_[scene]->chosen && ownRank(scene, finalists) == n;
                 if (chose)
                     drawn.push_back(withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings));
                 std::vector<std::size_t> with;
@@ -252,15 +252,15 @@ private:
         found_.slower.assign(own_.size(), std::nullopt);
         for (std::size_t scene = 0; scene < own_.size(); ++scene) {
             if (!own_[scene]->chosen) continue;
-            const std::size_t place = ownPlace(scene, finalists);
+            const std::size_t index = ownRank(scene, finalists);
             found_.slower[scene] = TimeRatio{};
-            if (place == result.winner) continue;
+            if (index == result.winner) continue;
             found_.slower[scene] =
-                experiment::meanRatio(rounds[scene][result.winner], rounds[scene][place], 0.05);
+                experiment::meanRatio(rounds[scene][result.winner], rounds[scene][index], 0.05);
         }
     }
     // Index of the scene's own choice in `finalists`; their count if it is not there.
-    std::size_t ownPlace(std::size_t scene, const std::vector<std::size_t>& finalists) const {
+    std::size_t ownRank(std::size_t scene, const std::vector<std::size_t>& finalists) const {
         const Settings own = withoutCamera(own_[scene]->candidates[*own_[scene]->chosen].settings);
         const auto found = std::ranges::find_if(
             finalists, [&](std::size_t i) { return found_.candidates[i].settings == own; });

@@ -253,7 +253,7 @@ double endOf(const Candidate& candidate, double TimeRatio::*end) {
 
 // SVG of error over time for all judged and timed candidates. Shows time intervals of raced candidates, the
 // budget and the Pareto front. Both axes are logarithmic; errors of 0 and infinity get their own lanes.
-std::string plotOf(const ChoiceReport& report, PlotPlace place) {
+std::string plotOf(const ChoiceReport& report, PlotTarget place) {
     const Choice& choice = report.choice;
     const std::string_view metric = titleOf(report.budget.metric);
     PlotPanel panel{.across = {"time of a frame, ms"},
@@ -338,7 +338,7 @@ std::vector<Block> blocksOf(const ChoiceReport& report) {
     const Block plot{
         output::Box{
             "box",
-            {output::Drawing{plotOf(report, PlotPlace::page)},
+            {output::Drawing{plotOf(report, PlotTarget::page)},
              Paragraph{"A bar is the 99 % confidence interval of a candidate's time divided by the fastest "
                        "one's. The line is the smallest error that is possible within a time.",
                        "soft small"}}},
@@ -405,7 +405,7 @@ void writeChoice(const Choices& choices, const std::filesystem::path& path, bool
     if (choices.all) add(blocksOf(*choices.all), std::span<const experiment::Row>());
     for (const ChoiceReport& report : choices.scenes) {
         const std::string number = choices.all ? fmt::format("-{}", &report - &first + 1) : "";
-        folder.put(fmt::format("front{}.svg", number), plotOf(report, PlotPlace::file));
+        folder.put(fmt::format("front{}.svg", number), plotOf(report, PlotTarget::file));
         if (choices.all) put(chosenSettings(report.choice), fmt::format("settings{}.json", number));
         add(blocksOf(report), report.choice.candidates);
     }

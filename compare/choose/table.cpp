@@ -61,13 +61,13 @@ std::vector<Settings> tableOf(std::span<const Settings> candidates) {
         const Settings& first = *firsts.try_emplace(candidate.path, &candidate).first->second;
         const std::vector<Change> changes = changesBetween(first, candidate);
         if (changes.size() > 1) continue;
-        const std::ptrdiff_t place = changes.empty() ? 0 : placeOf(changes.front());
-        if (place <= std::ssize(usualChanges)) placed.emplace_back(place, &candidate);
+        const std::ptrdiff_t index = changes.empty() ? 0 : placeOf(changes.front());
+        if (index <= std::ssize(usualChanges)) placed.emplace_back(index, &candidate);
     }
     std::ranges::stable_sort(placed, {}, &std::pair<std::ptrdiff_t, const Settings*>::first);
     placed.resize(std::min(placed.size(), maxInTable));
     std::vector<Settings> table;
-    for (const auto& [place, candidate] : placed) table.push_back(*candidate);
+    for (const auto& [index, candidate] : placed) table.push_back(*candidate);
     return table;
 }
 

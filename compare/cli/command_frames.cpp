@@ -68,9 +68,9 @@ public:
         if (number == 0) chooseExposure(frame);
         result_["frames"].push_back(jsonOf(frame));
         Json& entry = result_["frames"].back();
-        fs::path place;
+        fs::path target;
         if (output_.kind == OutputKind::folder) {
-            place = writeInFolder(frame, number, entry);
+            target = writeInFolder(frame, number, entry);
         } else {
             const std::vector<fs::path> files = filesOf(number);
             const fs::path file = numberedFile(output_.path, numberOf(number, options_.frames));
@@ -78,9 +78,9 @@ public:
             entry["file"] = file.string();
             if (output_.kind == OutputKind::png)
                 for (const fs::path& of : files) entry["files"].push_back(of.string());
-            place = files.size() == 1 ? file : file.parent_path() / imageNames(files);
+            target = files.size() == 1 ? file : file.parent_path() / imageNames(files);
         }
-        if (!options_.json && !options_.quiet) print(frame, place, number);
+        if (!options_.json && !options_.quiet) print(frame, target, number);
     }
 
     // Call after the last image: replaces the folder atomically.
@@ -126,10 +126,10 @@ private:
         return output_.path / exr;
     }
 
-    void print(const Frame& frame, const fs::path& place, int number) {
+    void print(const Frame& frame, const fs::path& target, int number) {
         const double ms = frame.time.runs > 0 ? frame.time.median : frame.made_in_ms;
-        printOut("{}: {} at {:.6g} s, {}x{}, {}{:.2f} ms\n", place.string(), frame.scene, frame.settings.time,
-                 frame.settings.size.width, frame.settings.size.height,
+        printOut("{}: {} at {:.6g} s, {}x{}, {}{:.2f} ms\n", target.string(), frame.scene,
+                 frame.settings.time, frame.settings.size.width, frame.settings.size.height,
                  frame.time.runs > 0 ? "" : "rendered in ", ms);
         if (number == 0 && output_.kind != OutputKind::exr) printOut("  picture: {}\n", exposure_line_);
         for (const std::string& line : frame.notes)

@@ -173,7 +173,7 @@ int runView(const ViewLine& requested) {
     view.look.exposure = image.exposure;
     view.look.ev100 = image.ev100;
     view.look.tonemap = image.tonemap;
-    if (options.pixel) view.pixel = viewer::PixelPlace{options.pixel->x, options.pixel->y};
+    if (options.pixel) view.pixel = viewer::PixelPosition{options.pixel->x, options.pixel->y};
     if (view.pixel && (view.pixel->x >= view.subject.settings.size.width ||
                        view.pixel->y >= view.subject.settings.size.height))
         refuse("--pixel {},{}: is outside the image; --size sets its size", view.pixel->x, view.pixel->y);

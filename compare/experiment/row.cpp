@@ -10,7 +10,7 @@ namespace diptych::experiment {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using JsonPlace = JsonAt<Json>;
+using JsonPath = JsonAt<Json>;
 
 // Upper limit of whole numbers in a row, so that sums of rows stay exact.
 constexpr std::uint64_t max_counted = std::uint64_t(1) << 48;
@@ -60,26 +60,26 @@ void addMeasured(Json& json, const Row& row) {
     json["warnings"] = row.warnings;
 }
 
-double numberFrom(const JsonPlace& json, bool whole) {
+double numberFrom(const JsonPath& json, bool whole) {
     if (json.json().is_null()) return std::numeric_limits<double>::infinity();
     return whole ? static_cast<double>(json.whole<std::uint64_t>(0, max_counted)) : json.number();
 }
 
-Row measuredFrom(const JsonPlace& json) {
+Row measuredFrom(const JsonPath& json) {
     Row row;
     for (std::size_t i = 0; i < measures.size(); ++i) {
-        const JsonPlace group = json.at(std::string(measures[i].group).c_str());
+        const JsonPath group = json.at(std::string(measures[i].group).c_str());
         if (const std::string name(measures[i].name); group.has(name.c_str()))
             row.measured[static_cast<Measure>(i)] = numberFrom(group.at(name.c_str()), measures[i].isWhole());
     }
-    if (const JsonPlace ms = json.at("ms"); ms.has("all"))
-        for (const JsonPlace& each : ms.at("all").each()) row.ms.push_back(each.number());
-    for (const JsonPlace& block : json.at("visits").each())
+    if (const JsonPath ms = json.at("ms"); ms.has("all"))
+        for (const JsonPath& each : ms.at("all").each()) row.ms.push_back(each.number());
+    for (const JsonPath& block : json.at("visits").each())
         row.blocks.push_back({block.at("median").number(), block.at("min").number(), block.at("max").number(),
                               block.at("runs").whole<int>(0, 1'000'000)});
-    for (const JsonPlace& pass : json.at("passes").each())
+    for (const JsonPath& pass : json.at("passes").each())
         row.passes.push_back({pass.at("name").text(), pass.at("ms").number()});
-    for (const JsonPlace& camera : json.at("cameras").each()) {
+    for (const JsonPath& camera : json.at("cameras").each()) {
         row.cameras.push_back(measuredFrom(camera));
         row.cameras.back().camera = camera.at("camera").text();
     }
@@ -163,7 +163,7 @@ Json jsonOf(const Row& row) {
     return json;
 }
 
-Row rowFrom(const JsonPlace& json) {
+Row rowFrom(const JsonPath& json) {
     const auto textOf = [&](const char* key) {
         return json.at(key).json().is_null() ? std::string() : json.at(key).text();
     };

@@ -16,7 +16,7 @@ namespace {
 // Key: option; value: why the scene is not sensitive to it.
 using Reasons = std::map<std::string_view, std::string_view>;
 
-bool hasPlace(const Light& light) {
+bool hasPosition(const Light& light) {
     return light.kind != LightKind::directional;
 }
 
@@ -64,12 +64,12 @@ public:
     InsensitiveReset(Settings row, std::span<const Light> lights, const Reflectors& surfaces)
         : row_(std::move(row)) {
         const auto any = [&](const auto& of) { return std::ranges::any_of(lights, of); };
-        if (!any(hasPlace)) {
+        if (!any(hasPosition)) {
             constexpr std::string_view why = "no light has a position: every light reaches every pixel";
             if (row_.assign != Assignment::per_object) reset("assign", why);
             reset("light-kernel", why);
             reset("light-cutoff", why);
-        } else if (!any([](const Light& light) { return hasPlace(light) && std::isinf(light.range); })) {
+        } else if (!any([](const Light& light) { return hasPosition(light) && std::isinf(light.range); })) {
             reset("light-cutoff", "every light has its own range");
         }
         if (lights.empty()) reset("pixel-lights", "there is no light");
@@ -77,7 +77,7 @@ public:
             reset("area-lights", "there is no area light");
         if (!surfaces.layered) reset("layers", "no opaque material has a layer");
         if (!surfaces.textured) reset("textures", "no material reads a texture");
-        if (!any([](const Light& light) { return hasPlace(light) && !isArea(light.kind); }))
+        if (!any([](const Light& light) { return hasPosition(light) && !isArea(light.kind); }))
             reset("shadow-lights", "there is no point or spot light");
         if (std::ranges::all_of(lights, [](const Light& light) { return isArea(light.kind); }))
             reset("shading-precision", "there is no point, spot or directional light");

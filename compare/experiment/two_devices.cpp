@@ -41,9 +41,9 @@ public:
     SceneSurfaces(const Scene& scene, const SceneView& view)
         : scene_(scene), pose_(view.pose), eye_(view.view.eye()) {}
 
-    bool at(int material, const float* place, double near, bool several) {
+    bool at(int material, const float* position, double near, bool several) {
         std::call_once(made_, [this] { make(); });
-        const glm::dvec3 p = eye_ + glm::dvec3(place[0], place[1], place[2]);
+        const glm::dvec3 p = eye_ + glm::dvec3(position[0], position[1], position[2]);
         std::size_t count = 0;
         for (std::size_t m = 0; m < triangles_.size(); ++m)
             if (static_cast<int>(m) == material || (material < 0 && blends(scene_.materials[m])))
@@ -79,8 +79,8 @@ AcrossDevices acrossDevices(const Scene& scene, const SceneView& view,
     across.devices = devices;
     if (!scene.textures.empty()) across.texels = texelRanges(scene, here, devices);
     across.surface_at = [surfaces = std::make_shared<SceneSurfaces>(scene, view)](
-                            int material, const float* place, double near, bool several) {
-        return surfaces->at(material, place, near, several);
+                            int material, const float* position, double near, bool several) {
+        return surfaces->at(material, position, near, several);
     };
     return across;
 }

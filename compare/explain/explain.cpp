@@ -202,7 +202,7 @@ void rank(const AblationResults& results, const Ablation& ablation, const Scene&
             }
     }
     const auto& places = found.dominant.data;
-    const auto with_cause = std::ranges::count_if(places, [](float place) { return place >= 0; });
+    const auto with_cause = std::ranges::count_if(places, [](float position) { return position >= 0; });
     for (std::size_t k = 0; with_cause > 0 && k < order.size(); ++k)
         found.causes[k].dominates = static_cast<double>(std::ranges::count(places, static_cast<float>(k))) /
                                     static_cast<double>(with_cause);

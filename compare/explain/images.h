@@ -18,7 +18,7 @@ using Color8 = std::array<std::uint8_t, 3>;  // sRGB
 
 // The colour of a cause by its index in Explanation::causes. The first seven have their own, after Okabe
 // and Ito 2008, "Color Universal Design", as in plots; all others are pale grey.
-Color8 causeColor(std::size_t place);
+Color8 causeColor(std::size_t index);
 inline constexpr std::size_t ownColors = 7;
 
 struct NamedImage {

@@ -54,17 +54,17 @@ std::vector<std::vector<float>> partsOfDifference(const std::vector<Image>& a, c
 std::vector<std::size_t> lightsOf(std::string_view of, const std::vector<Light>& lights, int shadow_lights) {
     const bool suns = of == "shadow_visibility", locals = of == "local_visibility";
     const std::vector<std::size_t> casting = castingLights(lights, shadow_lights);
-    const auto fits = [&](std::size_t place) {
-        const bool is_sun = lights[place].kind == LightKind::directional;
+    const auto fits = [&](std::size_t index) {
+        const bool is_sun = lights[index].kind == LightKind::directional;
         return suns ? is_sun : !locals || !is_sun;
     };
     const bool any_casts = std::ranges::any_of(casting, fits);
     std::vector<std::size_t> places;
-    for (std::size_t place = 0; place < lights.size(); ++place)
-        if (fits(place) && (!(suns || locals) || !any_casts || std::ranges::count(casting, place) > 0))
-            places.push_back(place);
-    std::ranges::stable_sort(places, std::ranges::greater(), [&](std::size_t place) {
-        return double{lights[place].intensity} * luminance(glm::dvec3(lights[place].color));
+    for (std::size_t index = 0; index < lights.size(); ++index)
+        if (fits(index) && (!(suns || locals) || !any_casts || std::ranges::count(casting, index) > 0))
+            places.push_back(index);
+    std::ranges::stable_sort(places, std::ranges::greater(), [&](std::size_t index) {
+        return double{lights[index].intensity} * luminance(glm::dvec3(lights[index].color));
     });
     return places;
 }
@@ -217,8 +217,8 @@ std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<
     const auto alone = [&](const Settings& settings) {
         ChannelShading& shading = ablation.lighting().under(settings);
         std::vector<Image> images;
-        for (const std::size_t place : places) {
-            const LightChannels adds = shading.light(allChannelsOf(1), place);
+        for (const std::size_t index : places) {
+            const LightChannels adds = shading.light(allChannelsOf(1), index);
             images.push_back(component ? LightingComponents::directLight(*component, adds)
                                        : sumOfLobes(adds));
         }

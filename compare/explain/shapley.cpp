@@ -14,7 +14,7 @@ namespace diptych {
 
 namespace {
 
-std::size_t placeOfCause(int causes) {
+std::size_t indexOfCause(int causes) {
     return static_cast<std::size_t>(causes);
 }
 
@@ -44,7 +44,7 @@ std::vector<std::vector<int>> sampledOrders(int causes, int orders, std::uint64_
         throw std::invalid_argument(
             "shares are sampled of 1 to 31 causes, by 4 orders or more, an even number");
     std::mt19937_64 random(seed);
-    std::vector<int> order(placeOfCause(causes));
+    std::vector<int> order(indexOfCause(causes));
     std::iota(order.begin(), order.end(), 0);
     std::vector<std::vector<int>> all;
     for (int sample = 0; sample < orders / 2; ++sample) {
@@ -72,14 +72,14 @@ void addExtremes(Contributions& contributions, int causes, const SubsetValue& va
 Contributions exactContributions(int causes, const SubsetValue& value) {
     const Subset end = countOfSubsets(causes);
     Contributions contributions;
-    contributions.contribution.resize(placeOfCause(causes));
-    contributions.interval.resize(placeOfCause(causes));
+    contributions.contribution.resize(indexOfCause(causes));
+    contributions.interval.resize(indexOfCause(causes));
     addExtremes(contributions, causes, value);
     for (Subset subset = 0; subset < end; ++subset)
         for (int i = 0; i < causes; ++i) {
             const Subset one = Subset{1} << i;
             if ((subset & one) != 0) continue;
-            contributions.contribution[placeOfCause(i)] +=
+            contributions.contribution[indexOfCause(i)] +=
                 contributionWeight(causes, std::popcount(subset)) * (value(subset | one) - value(subset));
         }
     for (int j = 1; j < causes; ++j)
@@ -110,14 +110,14 @@ std::vector<SubsetWeights> exactWeights(int causes) {
 std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t seed) {
     std::map<Subset, std::vector<double>> weights;
     const auto at = [&](Subset subset) -> std::vector<double>& {
-        return weights.try_emplace(subset, placeOfCause(causes)).first->second;
+        return weights.try_emplace(subset, indexOfCause(causes)).first->second;
     };
     for (const std::vector<int>& order : sampledOrders(causes, orders, seed)) {
         Subset swapped = 0;
         for (const int i : order) {
-            at(swapped)[placeOfCause(i)] -= 1.0 / orders;
+            at(swapped)[indexOfCause(i)] -= 1.0 / orders;
             swapped |= Subset{1} << i;
-            at(swapped)[placeOfCause(i)] += 1.0 / orders;
+            at(swapped)[indexOfCause(i)] += 1.0 / orders;
         }
     }
     // Each cause alone and all others, which may not have been evaluated yet.
@@ -132,7 +132,7 @@ std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t 
 
 Contributions sampledContributions(int causes, const SubsetValue& value, int orders, std::uint64_t seed) {
     const std::vector<std::vector<int>> all = sampledOrders(causes, orders, seed);
-    std::vector<double> sum(placeOfCause(causes)), squares(placeOfCause(causes)), one(placeOfCause(causes));
+    std::vector<double> sum(indexOfCause(causes)), squares(indexOfCause(causes)), one(indexOfCause(causes));
     const int samples = orders / 2;
     for (std::size_t at = 0; at < all.size(); at += 2) {
         std::fill(one.begin(), one.end(), 0.0);
@@ -140,7 +140,7 @@ Contributions sampledContributions(int causes, const SubsetValue& value, int ord
             Subset swapped = 0;
             for (const int i : order) {
                 const Subset more = swapped | Subset{1} << i;
-                one[placeOfCause(i)] += 0.5 * (value(more) - value(swapped));
+                one[indexOfCause(i)] += 0.5 * (value(more) - value(swapped));
                 swapped = more;
             }
         }

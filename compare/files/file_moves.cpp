@@ -70,16 +70,16 @@ private:
         std::string name;
     };
 
-    void makeFolders(const OpenFolder& place, const std::string& file) {
+    void makeFolders(const OpenFolder& directory, const std::string& file) {
         std::vector<fs::path> folders = foldersOf(file);
         std::ranges::reverse(folders);
         for (const fs::path& folder : folders) {
-            folders_.emplace_back(&place, folder);
-            const int error = place.makeFolder(folder);
+            folders_.emplace_back(&directory, folder);
+            const int error = directory.makeFolder(folder);
             if (error == 0) continue;
             folders_.pop_back();
-            if (error != EEXIST) throw std::runtime_error(writingFailed(place.path() / folder, error));
-            place.in(folder);  // throws for a link or a file
+            if (error != EEXIST) throw std::runtime_error(writingFailed(directory.path() / folder, error));
+            directory.in(folder);  // throws for a link or a file
         }
     }
 
@@ -95,9 +95,9 @@ std::vector<std::string> removedBy(const FileMoves& moves) {
 }
 
 // Removes folders that became empty, such as "1" after "1/lit.png".
-void removeEmptied(const OpenFolder& place, const FileMoves& moves) {
+void removeEmptied(const OpenFolder& directory, const FileMoves& moves) {
     for (const std::string& name : removedBy(moves))
-        for (const fs::path& inner : foldersOf(name)) place.removeFolder(inner);
+        for (const fs::path& inner : foldersOf(name)) directory.removeFolder(inner);
 }
 
 std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {
@@ -124,12 +124,12 @@ FileMoves readMoves(const OpenFolder& begun) {
 
 // Cleans up after all moves. Removes the list last, so that finishMoves() can repeat the clean-up after a
 // kill.
-void removeBegun(const OpenFolder& place, const OpenFolder& begun) {
+void removeBegun(const OpenFolder& directory, const OpenFolder& begun) {
     // Replaced files, and emptied source folders.
     for (const std::string& name : begun.names())
         if (!begun.hasFile(name)) begun.removeAll(name);
     begun.removeFile(listName);
-    place.removeFolder(begunName);
+    directory.removeFolder(begunName);
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ void removeBegun(const OpenFolder& place, const OpenFolder& begun) {
 void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& moves) {
     writeFile(made.path() / listName,
               nlohmann::json{{"files", moves.files}, {"earlier", moves.earlier}}.dump());
-    const OpenFolder place = OpenFolder::at(folder);
+    const OpenFolder directory = OpenFolder::at(folder);
     const OpenFolder& begun = made.contents();
     const std::string temporary = made.path().filename();
     if (const int error = begun.makeFolder(oldName); error != 0)
@@ -148,23 +148,23 @@ void moveFiles(const fs::path& folder, Temporary& made, const FileMoves& moves) 
     UndoableMoves done;
     try {
         for (const std::string& name : moves.files) {
-            if (place.has(name))
-                done.replace(begun, place, old, name);
+            if (directory.has(name))
+                done.replace(begun, directory, old, name);
             else
-                done.make(begun, place, name);
+                done.make(begun, directory, name);
         }
         for (const std::string& name : removedBy(moves))
-            if (place.hasFile(name)) done.make(place, old, name);
+            if (directory.hasFile(name)) done.make(directory, old, name);
     } catch (...) {
         // If undo fails too, the list remains, and the next program finishes the moves.
-        if (done.undo() && place.move(begunName, place, temporary) == 0) {
+        if (done.undo() && directory.move(begunName, directory, temporary) == 0) {
             begun.removeContents();
-            place.removeFolder(temporary);
+            directory.removeFolder(temporary);
         }
         throw;
     }
-    removeEmptied(place, moves);
-    removeBegun(place, begun);
+    removeEmptied(directory, moves);
+    removeBegun(directory, begun);
 }
 
 bool isMoveBegun(const fs::path& folder) {
@@ -173,18 +173,18 @@ bool isMoveBegun(const fs::path& folder) {
 
 void finishMoves(const fs::path& folder) {
     if (!isMoveBegun(folder)) return;
-    const OpenFolder place = OpenFolder::at(folder), begun = place.in(begunName);
+    const OpenFolder directory = OpenFolder::at(folder), begun = directory.in(begunName);
     // Another user's list would remove files.
     if (const std::string fault = begun.fault(); !fault.empty())
         throw std::runtime_error(fmt::format("{}: {}", begun.path().string(), fault));
-    if (place.removeFolder(begunName) == 0) return;
+    if (directory.removeFolder(begunName) == 0) return;
     const FileMoves moves = readMoves(begun);
     UndoableMoves done;
     for (const std::string& name : moves.files)
-        if (begun.has(name)) done.make(begun, place, name);
-    for (const std::string& name : removedBy(moves)) place.removeFile(name);
-    removeEmptied(place, moves);
-    removeBegun(place, begun);
+        if (begun.has(name)) done.make(begun, directory, name);
+    for (const std::string& name : removedBy(moves)) directory.removeFile(name);
+    removeEmptied(directory, moves);
+    removeBegun(directory, begun);
 }
 
 }  // namespace diptych

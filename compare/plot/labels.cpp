@@ -40,8 +40,8 @@ PlotBox boxOf(const Label& label, std::pair<int, int> direction, int distance, c
 
 }  // namespace
 
-std::vector<PlotBox> placeLabels(const std::vector<Label>& labels, const std::vector<PlotBox>& marks,
-                                 const PlotBox& area) {
+std::vector<PlotBox> positionLabels(const std::vector<Label>& labels, const std::vector<PlotBox>& marks,
+                                    const PlotBox& area) {
     std::vector<PlotBox> placed;
     for (const Label& label : labels) {
         PlotBox best{};

@@ -19,7 +19,7 @@ struct Label {
 // A position for each label, inside `area`: beside its point, preferably above right, or further away if
 // that is taken. Labels never overlap if one of eight directions at six distances is free. They cover
 // `marks` only if nothing else is free.
-std::vector<PlotBox> placeLabels(const std::vector<Label>& labels, const std::vector<PlotBox>& marks,
-                                 const PlotBox& area);
+std::vector<PlotBox> positionLabels(const std::vector<Label>& labels, const std::vector<PlotBox>& marks,
+                                    const PlotBox& area);
 
 }  // namespace diptych

@@ -83,12 +83,13 @@ struct Styles {
 // One panel inside `box`.
 class Panel {
 public:
-    Panel(const Plot& plot, const PlotPanel& panel, const Styles& styles, const PlotBox& box, PlotPlace place)
+    Panel(const Plot& plot, const PlotPanel& panel, const Styles& styles, const PlotBox& box,
+          PlotTarget place)
         : plot_(plot),
           panel_(panel),
           styles_(styles),
           box_(box),
-          file_(place == PlotPlace::file),
+          file_(place == PlotTarget::file),
           across_(panel.across, values(&PlotPoint::x), others(true), box.left, box.right, false),
           up_(panel.up, values(&PlotPoint::y), others(false), panel.up.places.empty() ? box.bottom : box.top,
               panel.up.places.empty() ? box.top : box.bottom, true) {}
@@ -219,7 +220,7 @@ private:
                 labels.push_back({x, y, plotLetter * static_cast<double>(point.label.size()), labelHeight});
                 texts.push_back(point.label);
             }
-        const std::vector<PlotBox> places = placeLabels(labels, marks, box_);
+        const std::vector<PlotBox> places = positionLabels(labels, marks, box_);
         std::string out;
         for (std::size_t i = 0; i < places.size(); ++i) {
             const double x = (places[i].left + places[i].right) / 2,
@@ -288,7 +289,7 @@ std::vector<PlotPoint>& PlotPanel::pointsOf(const std::string& name, std::option
     return (found == series.end() ? series.emplace_back(PlotSeries{name, path, line}) : *found).points;
 }
 
-std::string svgOf(const Plot& plot, PlotPlace place) {
+std::string svgOf(const Plot& plot, PlotTarget place) {
     Styles styles;
     for (const PlotPanel& panel : plot.panels)
         for (const PlotSeries& series : panel.series)
@@ -310,7 +311,7 @@ std::string svgOf(const Plot& plot, PlotPlace place) {
         next = std::max(next, box.bottom + below);
     }
     inside += legendOf(plot, styles, next);
-    const bool file = place == PlotPlace::file;
+    const bool file = place == PlotTarget::file;
     const std::string title = markup(plot.title);
     return fmt::format(
         "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" {}role=\"{}\" aria-label=\"{}\">{}{}"

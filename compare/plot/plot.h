@@ -18,7 +18,7 @@ namespace diptych {
 extern const char* const plotStyle;  // plot.css, for files; page::style contains it too
 
 // A plot in its own file contains its style and title; in a page, the page has both.
-enum class PlotPlace { file, page };
+enum class PlotTarget { file, page };
 
 // Nothing if both are equal.
 struct PlotRange {
@@ -83,7 +83,7 @@ struct Plot {
     bool chooses = false;              // in a page, points are buttons
 };
 
-std::string svgOf(const Plot& plot, PlotPlace place);
+std::string svgOf(const Plot& plot, PlotTarget place);
 
 // For a plot's file of another machine: throws std::runtime_error unless svgOf() may write it
 // (compare/page/emitted.h).

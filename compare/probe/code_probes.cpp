@@ -32,7 +32,7 @@ double topOfCoordinate(std::uint32_t bits) {
 
 // Octahedral encoding: the direction's position on |x| + |y| + |z| = 1, with the lower half folded outward
 // over the edges (Meyer et al. 2010, "On Floating-Point Normal Vectors").
-std::array<double, 2> octahedralPlace(Vec<double> n) {
+std::array<double, 2> octahedralPosition(Vec<double> n) {
     const double sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z), x = n.x / sum, y = n.y / sum;
     if (n.z >= 0) return {x, y};
     return {std::copysign(1 - std::abs(y), n.x >= 0 ? 1.0 : -1.0),
@@ -98,7 +98,7 @@ Probe octahedralProbe(std::uint32_t bits) {
     });
     p.evaluate = [bits](const float* in, const float* out, Tally& tally) {
         const Vec<double> n = exactVec(in);
-        const std::array<double, 2> place = octahedralPlace(n);
+        const std::array<double, 2> place = octahedralPosition(n);
         const double top = topOfCoordinate(bits);
         // A coordinate of at most 1 is off by up to 8 ULP of 1: five operations, one of them a division.
         for (std::size_t i = 0; i < 2; ++i)

@@ -226,8 +226,8 @@ Probe hamburgerProbe() {
             in[i] = static_cast<float>(p0 * std::pow(a, i + 1) + p1 * std::pow(b, i + 1) +
                                        p2 * std::pow(c, i + 1));
         double depth = random.uniform(0, 1);
-        for (const double place : {a, b, c})
-            if (std::abs(depth - place) < 0.05) depth = place + 0.075;
+        for (const double position : {a, b, c})
+            if (std::abs(depth - position) < 0.05) depth = position + 0.075;
         in[4] = static_cast<float>(depth);
         in[5] = static_cast<float>(random.logarithmic(3e-5, 1e-2));
     };

@@ -146,8 +146,8 @@ void makeFroxel(Random& random, std::size_t row, float* in) {
     // Every fourth line crosses a slice's bound, float by float.
     const double bound = first + std::exp2(double{in[1]}) *
                                      static_cast<double>(1 + line.bits() % static_cast<std::uint64_t>(in[2]));
-    const double place = static_cast<double>(row % 256);
-    const double count = row / 256 % 4 ? first + all * 1.1 * (place + 0.5) / 256 : bound - 128 + place;
+    const double position = static_cast<double>(row % 256);
+    const double count = row / 256 % 4 ? first + all * 1.1 * (position + 0.5) / 256 : bound - 128 + position;
     in[6] = static_cast<float>(std::clamp(floatOfCount(count) - double{in[0]}, 0.0, 1e18));
     const auto pixel = [&](float tiles) {
         return static_cast<float>(std::floor(random.uniform(0, double{tiles} * std::exp2(double{in[5]}))) +

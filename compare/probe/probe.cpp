@@ -8,11 +8,11 @@ namespace diptych::probe {
 
 float onLine(std::size_t row, std::size_t line, double from, double to) {
     Random random(row / line);
-    const double place = static_cast<double>(row % line), offset = random.unit(),
+    const double position = static_cast<double>(row % line), offset = random.unit(),
                  start = random.ends(from, to);
     if (row / line % 2 == 0)
-        return static_cast<float>(from + (to - from) * (place + offset) / static_cast<double>(line));
-    return static_cast<float>(std::min(start + place * ulpOf(start), to));
+        return static_cast<float>(from + (to - from) * (position + offset) / static_cast<double>(line));
+    return static_cast<float>(std::min(start + position * ulpOf(start), to));
 }
 
 std::vector<float> inputsOf(const Probe& probe, std::size_t first, std::size_t rows) {

@@ -324,9 +324,9 @@ Lighting::MoreReflections Lighting::between(const Surface& surface, const Visibi
             1.0 - lostToLayer(surface.base_layer, layer)};
 }
 
-Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
+Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& location, const Brdf& brdf,
                               const Visibility& visible, std::uint64_t seed) const {
-    const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - place;
+    const glm::dvec3 centre = emitter.far ? emitter.centre : emitter.centre - location;
     const double window = rangeWindow(glm::length(centre), emitter.range, falloff_.window);
     if (!(window > 0)) return {};
     std::vector<Patch> patches = visiblePatches(emitter, centre, brdf.normal());

@@ -117,7 +117,7 @@ private:
     // The light of one layer: the material under its sheen and clear coat, or one of these.
     Shading layer(const Surface& surface, Multiscatter multiscatter, const Visibility& visible,
                   std::uint64_t seed) const;
-    Shading fromEmitter(const Emitter& emitter, const glm::dvec3& place, const Brdf& brdf,
+    Shading fromEmitter(const Emitter& emitter, const glm::dvec3& point, const Brdf& brdf,
                         const Visibility& visible, std::uint64_t seed) const;
     // `lobeOnly`: nothing from the base, which is lit by a lightmap.
     Estimated fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visibility& visible,

@@ -25,9 +25,9 @@ public:
 
     // The ray through a point of the image, with the differences to rays `apart` pixels further.
     PixelRay through(double x, double y, double apart = 1) const {
-        const glm::dvec3 place = corner_ + x_ * x + y_ * y, none(0);
-        if (orthographic_) return {place, -backward_, x_ * apart, none, y_ * apart, none};
-        return {none, place - backward_, none, x_ * apart, none, y_ * apart};
+        const glm::dvec3 point = corner_ + x_ * x + y_ * y, none(0);
+        if (orthographic_) return {point, -backward_, x_ * apart, none, y_ * apart, none};
+        return {none, point - backward_, none, x_ * apart, none, y_ * apart};
     }
 
     double depth(const glm::dvec3& position) const { return -glm::dot(position, backward_); }

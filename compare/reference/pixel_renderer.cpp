@@ -158,9 +158,9 @@ void PixelRenderer::takeShadow(Pixel& pixel, const Surface& s, const Foot& foot,
     pixel.sun_visibility = 1;
     if (!sun_) return;
     const glm::dvec3 to_light = -sun_->direction;
-    const auto sees = [&](const glm::dvec3& place) {
+    const auto sees = [&](const glm::dvec3& location) {
         Foot there = foot;
-        there.place = place;
+        there.place = location;
         return visibilityFrom(there)(to_light, std::numeric_limits<double>::infinity());
     };
     pixel.sun_visibility = sun_->angle > 0 ? seenOfDisc(foot, seed) : sees(foot.place) ? 1 : 0;
@@ -183,10 +183,10 @@ void PixelRenderer::takeLocalShadows(Pixel& pixel, const Surface& s, const Foot&
         const Incident here = incident(*light, position, foot.place, request_.falloff);
         const double weight = luminance(here.irradiance);
         if (!(weight > 0)) continue;
-        const auto sees = [&](const glm::dvec3& place) {
+        const auto sees = [&](const glm::dvec3& location) {
             Foot there = foot;
-            there.place = place;
-            const glm::dvec3 path = position - place;
+            there.place = location;
+            const glm::dvec3 path = position - location;
             const double distance = glm::length(path);
             return visibilityFrom(there)(path / distance, distance);
         };
@@ -316,8 +316,10 @@ std::vector<Hit> PixelRenderer::blendedHits(double end, const PixelRay& ray) con
             hits.push_back(hit);
         return false;  // continue the ray
     });
-    const auto place = [](const Hit& hit) { return std::tuple(hit.t, ~hit.id.instance, ~hit.id.triangle); };
-    std::ranges::sort(hits, {}, place);
+    const auto location = [](const Hit& hit) {
+        return std::tuple(hit.t, ~hit.id.instance, ~hit.id.triangle);
+    };
+    std::ranges::sort(hits, {}, location);
     // A ray through an edge hits both of its triangles at one point.
     const auto same = std::ranges::unique(hits, [](const Hit& a, const Hit& b) {
         return a.id == b.id ||

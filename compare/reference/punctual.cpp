@@ -22,12 +22,12 @@ double rangeWindow(double distance, double range, RangeWindow window) {
     return std::pow(1 - std::pow(distance / range, 4), window == RangeWindow::squared ? 2 : 1);
 }
 
-Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& place,
+Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& position,
                   const Falloff& falloff) {
     const glm::dvec3 power = glm::dvec3(light.color) * double{light.intensity};
     if (light.kind == LightKind::directional)
         return {-light.direction, power, std::numeric_limits<double>::infinity(), ofDirection};
-    const glm::dvec3 path = light_position - place;
+    const glm::dvec3 path = light_position - position;
     const double distance = glm::length(path);
     if (!(distance > 0)) return {};
     Incident result{path / distance,

@@ -27,8 +27,8 @@ struct Incident {
     double turned = 0, rounding = 0;
 };
 
-// `light_position` and `place` are relative to the eye, as a path rounds them.
-Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& place,
+// `light_position` and `position` are relative to the eye, as a path rounds them.
+Incident incident(const Light& light, const glm::dvec3& light_position, const glm::dvec3& position,
                   const Falloff& falloff = {});
 
 }  // namespace diptych::reference

@@ -226,7 +226,7 @@ PixelLight drawPixel(const Request& request, int x, int y) {
     const PixelRenderer renderer(request);
     const Pixel pixel = renderer.render(x, y);
     PixelLight result;
-    const std::size_t place = static_cast<std::size_t>(y) * static_cast<std::size_t>(request.view.width) +
+    const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(request.view.width) +
                               static_cast<std::size_t>(x);
     for (const DebugMode& mode : debugModes()) {
         if (!isMadeByReference(mode)) continue;
@@ -235,7 +235,7 @@ PixelLight drawPixel(const Request& request, int x, int y) {
         // Not shaded: copied from the capture, or 0 of a layer that no surface has.
         if (!request.surfaces->contains(mode.channel)) continue;
         const Image& image = request.surfaces->at(mode.channel);
-        for (int c = 0; c < mode.width; ++c) value[c] = double{image.pixel(place)[c]};
+        for (int c = 0; c < mode.width; ++c) value[c] = double{image.pixel(index)[c]};
     }
     result.uncertainty = pixel.shading.uncertainty + pixel.blended.uncertainty;
     result.unblended = request.blended && blendsSomewhere(request) ? pixel.unblended : pixel.lit;

@@ -12,17 +12,17 @@
 
 namespace diptych::reference {
 
-double edgeDistance(const SeesLight& sees, const glm::dvec3& place, const glm::dvec3& normal,
+double edgeDistance(const SeesLight& sees, const glm::dvec3& position, const glm::dvec3& normal,
                     const glm::dvec3& to_light, double farthest) {
     constexpr int directions = 8, bisections = 4;
     constexpr double min = 0x1p-13;
     // A straight boundary is at most half the angle between directions away from the nearest of them.
     const double straight = std::cos(std::numbers::pi / directions);
     const glm::dvec3 x = perpendicularTo(to_light), y = glm::cross(to_light, x);
-    const double first = min * glm::length(place), cosine = glm::dot(normal, to_light);
-    const bool here = sees(place);
+    const double first = min * glm::length(position), cosine = glm::dot(normal, to_light);
+    const bool here = sees(position);
     const auto differs = [&](const glm::dvec3& across) {
-        return sees(place + across - to_light * (glm::dot(normal, across) / cosine)) != here;
+        return sees(position + across - to_light * (glm::dot(normal, across) / cosine)) != here;
     };
     // Every other ring is rotated by half the angle between directions.
     double turn = 0;

@@ -21,9 +21,9 @@ namespace diptych {
 
 namespace {
 
-#define DIPTYCH_CHANNEL_PLACE(number, name) gpu::uint{number},
-constexpr std::array channelBindings{SURFACE_CHANNELS(DIPTYCH_CHANNEL_PLACE)};
-#undef DIPTYCH_CHANNEL_PLACE
+#define DIPTYCH_CHANNEL_INDEX(number, name) gpu::uint{number},
+constexpr std::array channelBindings{SURFACE_CHANNELS(DIPTYCH_CHANNEL_INDEX)};
+#undef DIPTYCH_CHANNEL_INDEX
 constexpr std::size_t channelCount = channelBindings.size();
 
 // Settings of the frame whose depth, light lists and shadows light the surfaces.
@@ -178,11 +178,11 @@ ChannelTerms ChannelShading::terms(std::uint32_t sides) {
             std::move(read[4]), std::move(read[5]), std::move(read[6]), std::move(read[7])};
 }
 
-LightChannels ChannelShading::light(std::uint32_t sides, std::size_t place) {
+LightChannels ChannelShading::light(std::uint32_t sides, std::size_t index) {
     PreparedView& view = state_->frame.view;
     std::vector<gpu::Light> alone = view.lights.lights;
     for (std::size_t i = 0; i < view.lights.sources.size(); ++i)
-        if (view.lights.sources[i] != place) alone[i].intensity = gpu::vec3(0);
+        if (view.lights.sources[i] != index) alone[i].intensity = gpu::vec3(0);
     view.buffers.replaceLights(state_->uploader, alone);
     state_->drawTerms(sides);
     view.buffers.replaceLights(state_->uploader, view.lights.lights);

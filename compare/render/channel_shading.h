@@ -64,8 +64,8 @@ public:
     // The terms of the same image, before blending.
     ChannelTerms terms(std::uint32_t sides);
     // The part of these terms that one light adds: all others are black, but shadow maps and light lists
-    // are the full image's. `place`: index in lights().
-    LightChannels light(std::uint32_t sides, std::size_t place);
+    // are the full image's. `index`: index in lights().
+    LightChannels light(std::uint32_t sides, std::size_t index);
     // The lights of the view (SceneView::lights).
     const std::vector<Light>& lights() const;
 

@@ -189,19 +189,19 @@ List glossaryOf(const Comparison& comparison) {
 
 // Repeats the cards' findings for failures, warnings, rules, and differences that the encoding explains.
 List findingsOf(const Report& report, const Comparison& comparison) {
-    const std::string place = placeOf(report, comparison);
+    const std::string location = placeOf(report, comparison);
     List list;
     const auto add = [&](const std::string& start, Text text) {
         text.spans.insert(text.spans.begin(), Span(start));
         list.items.push_back(std::move(text));
     };
-    for (const std::string& failure : comparison.failures) add(fmt::format("FAIL {}: ", place), failure);
+    for (const std::string& failure : comparison.failures) add(fmt::format("FAIL {}: ", location), failure);
     for (const ChannelDiff* channel : failuresFirst(comparison)) {
         const std::string_view name = channel->mode->name;
         const bool explained = channel->unexplained_pixels && channel->stats.max != 0;
         Text finding = findingOf(*channel, "");
         if (channel->verdict == Verdict::fail) {
-            add(fmt::format("FAIL {}, {}: ", place, name), finding);
+            add(fmt::format("FAIL {}, {}: ", location, name), finding);
         } else if (explained || (channel->verdict == Verdict::pass && !channel->rule.empty() &&
                                  channel->stats.different > 0)) {
             if (explained && channel->rule.empty())
@@ -209,7 +209,7 @@ List findingsOf(const Report& report, const Comparison& comparison) {
             add(fmt::format("{}: ", name), finding);
         }
         if (!channel->warning.empty())
-            add(fmt::format("warning {}, {}: ", place, name),
+            add(fmt::format("warning {}, {}: ", location, name),
                 fmt::format("{} ({})", channel->warning, channel->rule));
     }
     return list;

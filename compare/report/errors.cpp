@@ -66,19 +66,19 @@ std::string histogram(const ChannelDiff& channel, const ChannelImages& images) {
         text += fmt::format("; the limit applies to {}, not to these errors", channel.criterion->metric);
     return fmt::format(
         "<figure class=\"histogram\">{}<figcaption>{}</figcaption></figure>\n",
-        svgOf({.title = "histogram of error", .panels = {panel}, .height = 240}, PlotPlace::page),
+        svgOf({.title = "histogram of error", .panels = {panel}, .height = 240}, PlotTarget::page),
         markup(text));
 }
 
 std::string worstList(const ChannelDiff& channel, const ChannelImages& images, const std::string& id) {
     std::string items;
     for (const WorstPixel& pixel : images.worst) {
-        const std::string place =
+        const std::string location =
             !images.kept ? fmt::format("<span>{}, {}</span> ", pixel.x, pixel.y)
                          : fmt::format("<a href=\"#{0}@{1},{2}\" data-pixel=\"{1},{2}\">{1}, {2}</a>", id,
                                        pixel.x, pixel.y);
         items +=
-            fmt::format("<li>{}<span>{}{}</span></li>", place, number(pixel.error), unitOf(*channel.mode));
+            fmt::format("<li>{}<span>{}{}</span></li>", location, number(pixel.error), unitOf(*channel.mode));
     }
     return fmt::format(
         "<div class=\"worst\" title=\"at least {} pixels apart\"><h4>Worst pixels{}</h4><ol>{}</ol></div>\n",

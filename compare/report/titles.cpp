@@ -183,9 +183,9 @@ std::string errorsText(const Report& report) {
 
 // placeOf(), and the pair if the place has several: "Box.glb b.exr/deferred".
 std::string pairPlaceOf(const Report& report, const Comparison& comparison) {
-    const std::string place = placeOf(report, comparison);
-    if (!hasMultiplePairs(report) || report.device.name.empty()) return place;  // diff names files
-    return fmt::format("{} {}/{}", place, report.baseline(comparison).name, report.test(comparison).name);
+    const std::string location = placeOf(report, comparison);
+    if (!hasMultiplePairs(report) || report.device.name.empty()) return location;  // diff names files
+    return fmt::format("{} {}/{}", location, report.baseline(comparison).name, report.test(comparison).name);
 }
 
 // A warning that belongs to a verdict about nearly empty images.

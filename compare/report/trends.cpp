@@ -200,12 +200,12 @@ std::vector<std::string> trendLines(const Trends& trends, const Report& report) 
         for (std::size_t i = 0; i < trends.comparisons.size(); ++i) {
             const Trend& trend = trends.comparisons[i];
             if (trend.kind != kind) continue;
-            std::string place = placeOf(report, report.comparisons[i]);
+            std::string location = placeOf(report, report.comparisons[i]);
             if (!trend.moved.empty())
-                place += fmt::format(
+                location += fmt::format(
                     " ({}{})", movedText(trend.moved.front()),
                     trend.moved.size() == 1 ? "" : fmt::format(", {} more metrics", trend.moved.size() - 1));
-            places.push_back(std::move(place));
+            places.push_back(std::move(location));
         }
         if (!places.empty())
             lines.push_back(fmt::format("{} {}: {}", places.size(), nameOf(kind), listed(places, 8)));

@@ -69,7 +69,7 @@ std::string ofErrors(const MarkupOf& markupOf) {
 
 std::string plotsOf(const Tradeoff& tradeoff, std::optional<Path> path) {
     return ofErrors(
-        [&](std::size_t metric) { return tradeoffPlot(tradeoff, metric, path, PlotPlace::page); });
+        [&](std::size_t metric) { return tradeoffPlot(tradeoff, metric, path, PlotTarget::page); });
 }
 
 std::string images(const Tradeoff& tradeoff, const TradeoffRow& row) {
@@ -256,9 +256,9 @@ std::string writeTradeoff(const Tradeoff& measured, const std::filesystem::path&
     writePng(folder / tradeoff.reference_image, reference);
     folder.list(tradeoff.reference_image);
     for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric) {
-        folder.put(plotName(metric, {}), tradeoffPlot(tradeoff, metric, {}, PlotPlace::file));
+        folder.put(plotName(metric, {}), tradeoffPlot(tradeoff, metric, {}, PlotTarget::file));
         for (const Path one : pathsOf(tradeoff))
-            folder.put(plotName(metric, one), tradeoffPlot(tradeoff, metric, one, PlotPlace::file));
+            folder.put(plotName(metric, one), tradeoffPlot(tradeoff, metric, one, PlotTarget::file));
     }
     folder.put("tradeoff.csv", inCsv(csvTable(tradeoff)));
     folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(experiment::pointersTo(tradeoff.rows))));

@@ -10,7 +10,7 @@
 namespace diptych::tradeoff {
 
 std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t metric, std::optional<Path> path,
-                         PlotPlace place) {
+                         PlotTarget place) {
     const std::string title(errorMetrics[metric].title);
     PlotPanel panel{.across = {"time of a frame, ms"}, .up = {title}};
     const std::vector<std::size_t> front = frontOf(tradeoff, metric, path);

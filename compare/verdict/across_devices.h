@@ -22,7 +22,7 @@ struct AcrossDevices {
     // Whether the scene has a surface (or `several`) of a material (-1: any blended one) within `near`
     // metres of a position (world axes, camera as origin, m). Empty: unknown; then no two surfaces count
     // as having equal depth.
-    std::function<bool(int material, const float* place, double near, bool several)> surface_at{};
+    std::function<bool(int material, const float* position, double near, bool several)> surface_at{};
     // Lit channels and visibilities of the test's surfaces, shaded on the baseline's device from their
     // channels.
     std::map<Channel, Image> relit;

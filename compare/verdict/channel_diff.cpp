@@ -175,7 +175,7 @@ std::string outsideDomain(const DebugMode& mode, const Image& image, const Cover
                           const Image* ids) {
     if (mode.domain == Domain::any) return {};
     std::uint64_t count = 0;
-    std::size_t place = 0;
+    std::size_t index = 0;
     Outside worst;
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         if (!coverage.covered[i] || (ids && *ids->pixel(i) < 0)) continue;
@@ -185,13 +185,13 @@ std::string outsideDomain(const DebugMode& mode, const Image& image, const Cover
         ++count;
         if (here.by > worst.by) {
             worst = here;
-            place = i;
+            index = i;
         }
     }
     if (count == 0) return {};
     const auto width = static_cast<std::size_t>(image.width);
     return fmt::format("{} at {}, the worst {:.6g} at {},{}", faultOf(mode.domain), counted(count, "pixel"),
-                       worst.value, place % width, place / width);
+                       worst.value, index % width, index / width);
 }
 
 // Finds the tolerance between two paths, or a path and a reference, and how much of it a channel uses.

@@ -79,13 +79,13 @@ double perTexel(const DebugMode& mode, const Requirements& needs) {
 
 }  // namespace
 
-PlaceBound::PlaceBound(const DebugMode& mode, const FramePair& pair, const Image& baseline, const Image& test)
+PixelBound::PixelBound(const DebugMode& mode, const FramePair& pair, const Image& baseline, const Image& test)
     : mode_(mode),
       grid_(*pair.grid),
       images_{&baseline, &test},
       step_(kink * stepOf(pair.across->devices, &DevicePrecision::sub_pixel_bits)) {}
 
-double PlaceBound::operator()(std::size_t i) const {
+double PixelBound::operator()(std::size_t i) const {
     if (grid_.narrow[i] != 0) {
         const unsigned seen = grid_.material[i];
         if ((seen & across_bits) == 0 || (seen & down_bits) == 0)
@@ -98,7 +98,7 @@ double PlaceBound::operator()(std::size_t i) const {
     return std::min(1.0, step_ * double{grid_.steeper[i]}) * changes;
 }
 
-double PlaceBound::change(const Image& image, std::size_t i, unsigned seen) const {
+double PixelBound::change(const Image& image, std::size_t i, unsigned seen) const {
     double max = 0;
     aroundPixel(image, i, [&](std::size_t j, unsigned bit) {
         if ((seen & bit) == 0) return;

@@ -16,9 +16,9 @@ namespace diptych {
 // Bound of an interpolated channel, in the channel's unit. Moving a vertex by one subpixel step moves a
 // position by that fraction of a pixel, never as far as the next pixel. It also turns triangles narrower
 // than two pixels; there the bound is the change to the next pixels of the material.
-class PlaceBound {
+class PixelBound {
 public:
-    PlaceBound(const DebugMode& mode, const FramePair& pair, const Image& baseline, const Image& test);
+    PixelBound(const DebugMode& mode, const FramePair& pair, const Image& baseline, const Image& test);
     double operator()(std::size_t i) const;
 
 private:
@@ -78,7 +78,7 @@ private:
     Kind kind_;
     const Image &baseline_, &test_;
     PixelError error_;
-    PlaceBound place_;
+    PixelBound place_;
     FacetBound facet_;
     double rounded_as_;  // rounding of darker pixels equals that at this value, in the channel's unit
     double per_texel_;   // change per unit of a linear texel, in the channel's unit

@@ -25,8 +25,8 @@ double pixelsPerRadian(const Frame& frame, std::size_t i);
 template <class Visit>
 void aroundPixel(const Image& image, std::size_t pixel, const Visit& visit) {
     within(image, pixel, 1, [&](std::size_t j, int dx, int dy) {
-        const int place = (dy + 1) * 3 + dx + 1;
-        if (j != pixel) visit(j, 1u << (place > 4 ? place - 1 : place));
+        const int index = (dy + 1) * 3 + dx + 1;
+        if (j != pixel) visit(j, 1u << (index > 4 ? index - 1 : index));
     });
 }
 // Bits of the neighbours across (left, right) and down (above, below).

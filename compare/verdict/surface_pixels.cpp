@@ -150,7 +150,7 @@ private:
     const FacetBound facetOf_{pair_};
     const Shadowed shadowed_{pair_};
     std::optional<DeviceBounds> depth_, light_;
-    std::optional<PlaceBound> coordinates_;
+    std::optional<PixelBound> coordinates_;
     const double step_ = stepOf(pair_.across->devices, &DevicePrecision::sub_pixel_bits);
 };
 

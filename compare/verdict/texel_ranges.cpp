@@ -315,9 +315,9 @@ std::map<Channel, Image> texelRanges(const Scene& scene, const Frame& frame,
                 double weight = 1;
                 if (texels) {
                     const glm::dvec3 at(uv->pixel(i)[0], uv->pixel(i)[1], 1);
-                    const glm::dvec2 place(slot.u.x * at.x + slot.u.y * at.y + slot.u.z,
-                                           slot.v.x * at.x + slot.v.y * at.y + slot.v.z);
-                    range = levels.rangeAt(place, *texels);
+                    const glm::dvec2 position(slot.u.x * at.x + slot.u.y * at.y + slot.u.z,
+                                              slot.v.x * at.x + slot.v.y * at.y + slot.v.z);
+                    range = levels.rangeAt(position, *texels);
                     // Magnified: two steps of the weights, and the movement of the position by a vertex
                     // step.
                     if (texture.sampler.magnify_linear && std::log2(texels->max) + levelAbove < 0)

@@ -45,10 +45,10 @@ std::vector<Sample> samplesOf(int from, int count, double origin, double scale, 
 
 }  // namespace
 
-std::vector<PanelPlace> placesOf(const CanvasRect& canvas, const Size& size, const CanvasView& view,
-                                 bool difference) {
+std::vector<PanelRect> placesOf(const CanvasRect& canvas, const Size& size, const CanvasView& view,
+                                bool difference) {
     const std::size_t first = view.other ? 1 : 0, second = 1 - first;
-    std::vector<PanelPlace> places;
+    std::vector<PanelRect> places;
     const auto add = [&](std::size_t panel, const CanvasRect& rect, const CanvasRect& within) {
         if (rect.width > 0 && rect.height > 0)
             places.push_back({panel, rect, placementIn(within, size, view)});
@@ -72,9 +72,9 @@ std::vector<PanelPlace> placesOf(const CanvasRect& canvas, const Size& size, con
     return places;
 }
 
-std::optional<PixelUnder> pixelUnder(const std::vector<PanelPlace>& places, const Size& size, double x,
+std::optional<PixelUnder> pixelUnder(const std::vector<PanelRect>& places, const Size& size, double x,
                                      double y) {
-    for (const PanelPlace& place : places) {
+    for (const PanelRect& place : places) {
         if (!place.rect.contains(x, y)) continue;
         const double px = (x - place.placement.left) / place.placement.scale,
                      py = (y - place.placement.top) / place.placement.scale;
@@ -85,14 +85,14 @@ std::optional<PixelUnder> pixelUnder(const std::vector<PanelPlace>& places, cons
 }
 
 std::vector<std::uint8_t> composed(const Shown& shown, const CanvasRect& canvas,
-                                   const std::vector<PanelPlace>& places, bool bgr) {
+                                   const std::vector<PanelRect>& places, bool bgr) {
     constexpr std::array<std::uint8_t, 4> empty{26, 26, 28, 255};
     constexpr int lineLevel = 70;
     std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(canvas.width) *
                                      static_cast<std::size_t>(canvas.height));
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = empty[i % 4];
     const Size& full = shown.order.subject.settings.size;
-    for (const PanelPlace& place : places) {
+    for (const PanelRect& place : places) {
         if (place.panel == 2 && !shown.difference) continue;
         const Image8& image = place.panel == 2 ? shown.difference->image : shown.panels.at(place.panel).image;
         if (image.data.empty()) continue;

@@ -464,7 +464,7 @@ private:
     std::optional<std::uint64_t> shown_order_, failed_order_;
     std::optional<Subject> timed_, evaluated_of_;
     Against evaluated_against_ = Against::paths;
-    std::optional<std::pair<Subject, PixelPlace>> broken_down_;
+    std::optional<std::pair<Subject, PixelPosition>> broken_down_;
     std::array<PathProperties, 2> paths_;
     ImageCost cost_;                    // of moving images, once their pipelines exist
     std::size_t compiled_ = 0;          // number of pipelines after the last image

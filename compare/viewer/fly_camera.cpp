@@ -74,7 +74,7 @@ std::string FlyCamera::describe() const {
         eye_.y, eye_.z, target.x, target.y, target.z, fov_, near_, far_);
 }
 
-std::optional<glm::dvec3> seenAt(const View& view, const Image& depth, const PixelPlace& pixel) {
+std::optional<glm::dvec3> seenAt(const View& view, const Image& depth, const PixelPosition& pixel) {
     const auto along = double{depth.at(pixel.x, pixel.y)};
     if (!(along > 0)) return std::nullopt;
     // Any point on the pixel's ray, from the eye.

@@ -47,6 +47,6 @@ private:
 
 // The world position at a pixel, from its depth (m along the view direction, 0: background); empty in the
 // background. Perspective cameras only.
-std::optional<glm::dvec3> seenAt(const View& view, const Image& depth, const PixelPlace& pixel);
+std::optional<glm::dvec3> seenAt(const View& view, const Image& depth, const PixelPosition& pixel);
 
 }  // namespace diptych::viewer

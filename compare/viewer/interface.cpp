@@ -133,7 +133,7 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
 
 // ---- the footer ---------------------------------------------------------------------------------------
 
-void foot(InterfaceState& state, const Contents& contents, const std::vector<PanelPlace>& places, int width,
+void foot(InterfaceState& state, const Contents& contents, const std::vector<PanelRect>& places, int width,
           int height, float scale) {
     const float tall = static_cast<float>(footHeight) * scale;
     ImGui::SetNextWindowPos({0, static_cast<float>(height) - tall});
@@ -172,10 +172,10 @@ void foot(InterfaceState& state, const Contents& contents, const std::vector<Pan
 
 // ---- over the images ----------------------------------------------------------------------------------
 
-void titles(const InterfaceState& state, const Contents& contents, const std::vector<PanelPlace>& places,
+void titles(const InterfaceState& state, const Contents& contents, const std::vector<PanelRect>& places,
             float scale) {
     const Shown& shown = *contents.shown;
-    for (const PanelPlace& place : places) {
+    for (const PanelRect& place : places) {
         const float x = static_cast<float>(place.rect.x) + 8 * scale,
                     y = static_cast<float>(place.rect.y) + 6 * scale;
         const bool narrow = static_cast<float>(place.rect.width) < 40 * scale;
@@ -202,7 +202,7 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
     }
 }
 
-void wipeLine(const InterfaceState& state, const CanvasRect& canvas, const std::vector<PanelPlace>& places,
+void wipeLine(const InterfaceState& state, const CanvasRect& canvas, const std::vector<PanelRect>& places,
               float scale) {
     if (state.canvas.layout != Layout::wipe || places.empty() || state.look.difference != Difference::none)
         return;
@@ -245,7 +245,7 @@ void legend(const CanvasRect& canvas, float scale, const Color& color,
     }
 }
 
-void legends(const Contents& contents, const CanvasRect& canvas, const std::vector<PanelPlace>& places,
+void legends(const Contents& contents, const CanvasRect& canvas, const std::vector<PanelRect>& places,
              float scale) {
     const Shown& shown = *contents.shown;
     const bool of_difference = !places.empty() && places.front().panel == 2;
@@ -277,10 +277,10 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
 }
 
 // Writes values into large pixels.
-void values(const Contents& contents, const std::vector<PanelPlace>& places, float scale) {
+void values(const Contents& contents, const std::vector<PanelRect>& places, float scale) {
     const Shown& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
-    for (const PanelPlace& place : places) {
+    for (const PanelRect& place : places) {
         const auto [left, top, size] = place.placement;
         if (size < valuesFrom * double{scale} || (place.panel == 2 && !shown.difference)) continue;
         const Image& image =
@@ -323,11 +323,11 @@ std::optional<Projected> project(const View& view, const glm::dvec3& world, cons
 }
 
 // A circle of the light's range, and the light's position.
-void lights(const Contents& contents, const std::vector<PanelPlace>& places, float scale) {
+void lights(const Contents& contents, const std::vector<PanelRect>& places, float scale) {
     const Shown& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
-    for (const PanelPlace& place : places) {
+    for (const PanelRect& place : places) {
         list->PushClipRect({static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
                            {static_cast<float>(place.rect.x + place.rect.width),
                             static_cast<float>(place.rect.y + place.rect.height)});
@@ -362,9 +362,9 @@ void lights(const Contents& contents, const std::vector<PanelPlace>& places, flo
     }
 }
 
-void chosenPixel(const InterfaceState& state, const std::vector<PanelPlace>& places, float scale) {
+void chosenPixel(const InterfaceState& state, const std::vector<PanelRect>& places, float scale) {
     if (!state.pixel) return;
-    for (const PanelPlace& place : places) {
+    for (const PanelRect& place : places) {
         const auto [left, top, size] = place.placement;
         const auto x = static_cast<float>(left + state.pixel->x * size),
                    y = static_cast<float>(top + state.pixel->y * size);
@@ -443,7 +443,7 @@ void drawOutlined(float x, float y, std::uint32_t color, const std::string& text
 }
 
 void drawInterface(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                   const std::vector<PanelPlace>& places, double scale) {
+                   const std::vector<PanelRect>& places, double scale) {
     const auto s = static_cast<float>(scale);
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const int width = static_cast<int>(display.x), height = static_cast<int>(display.y);

@@ -79,7 +79,7 @@ std::string belowText(const Contents& contents) {
     return words;
 }
 
-std::vector<PanelPlace> placesOf(const CanvasRect& canvas, const InterfaceState& state) {
+std::vector<PanelRect> placesOf(const CanvasRect& canvas, const InterfaceState& state) {
     return placesOf(canvas, state.subject.settings.size, state.canvas,
                     state.look.difference != Difference::none);
 }

@@ -40,10 +40,10 @@ struct InterfaceState {
     bool follow = true;  // images are as large as the canvas
     bool panels = true, information = true, help = false, light_debug = false, orbiting = false,
          playing = false;
-    std::optional<PixelPlace> pixel;  // the inspected one
-    std::string rig;                  // value of --lights while the lights are off
-    double speed = 1;                 // m/s as a fraction of the distance to the camera's first target
-    Settings edited;                  // of the settings panel; invalid if `problem` is not empty
+    std::optional<PixelPosition> pixel;  // the inspected one
+    std::string rig;                     // value of --lights while the lights are off
+    double speed = 1;                    // m/s as a fraction of the distance to the camera's first target
+    Settings edited;                     // of the settings panel; invalid if `problem` is not empty
     std::string problem;
     std::vector<std::string> counted;          // verdict options of the command line, for commands
     std::array<char, 64> filter{};             // of the settings' names
@@ -56,8 +56,8 @@ struct InterfaceState {
     struct Requests {
         std::string copy;  // to the clipboard
         bool reload = false;
-        std::optional<std::pair<Channel, PixelPlace>> worst;  // channel and pixel to fly to
-        std::optional<std::string> camera;                    // to use, as --camera text
+        std::optional<std::pair<Channel, PixelPosition>> worst;  // channel and pixel to fly to
+        std::optional<std::string> camera;                       // to use, as --camera text
     } requests;
 };
 
@@ -88,7 +88,7 @@ std::array<int, barWidths.size()> barRows(int width, double scale);
 // The part of a window of this size for images; `scale` enlarges the interface.
 CanvasRect canvasOf(const InterfaceState& state, int width, int height, double scale);
 // The panels in that part.
-std::vector<PanelPlace> placesOf(const CanvasRect& canvas, const InterfaceState& state);
+std::vector<PanelRect> placesOf(const CanvasRect& canvas, const InterfaceState& state);
 
 // The rendered scene, as on the command line.
 const std::string& sceneOf(const InterfaceState& state);

@@ -18,12 +18,12 @@ constexpr double wipeReach = 7;  // window pixels around the wipe's line where t
 
 }  // namespace
 
-double Mouse::wipePlace(const CanvasRect& canvas) const {
+double Mouse::wipePosition(const CanvasRect& canvas) const {
     return canvas.x + static_cast<double>(std::lround(state_.canvas.wipe * canvas.width));
 }
 
 void Mouse::handle(const Input& input, const CanvasRect& canvas, double scale, bool taken) {
-    const std::vector<PanelPlace> places = placesOf(canvas, state_);
+    const std::vector<PanelRect> places = placesOf(canvas, state_);
     for (const Input::Button& button : input.buttons) {
         if (!button.down) {
             if (button.button != GLFW_MOUSE_BUTTON_LEFT) continue;
@@ -43,7 +43,7 @@ void Mouse::handle(const Input& input, const CanvasRect& canvas, double scale, b
         } else if (button.button == GLFW_MOUSE_BUTTON_LEFT) {
             const bool wipes = state_.canvas.layout == Layout::wipe &&
                                state_.look.difference == Difference::none &&
-                               std::abs(button.x - wipePlace(canvas)) <= wipeReach * scale;
+                               std::abs(button.x - wipePosition(canvas)) <= wipeReach * scale;
             drag_ = wipes ? Drag::wipe : state_.canvas.zoom > 0 ? Drag::image : Drag::look;
             pivot_ = pivotAt(places, button.x, button.y);
             cursor_x_ = button.x;
@@ -57,14 +57,14 @@ void Mouse::handle(const Input& input, const CanvasRect& canvas, double scale, b
                           : std::nullopt;
 }
 
-void Mouse::drag(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double x, double y) {
+void Mouse::drag(const CanvasRect& canvas, const std::vector<PanelRect>& places, double x, double y) {
     const double dx = x - cursor_x_, dy = y - cursor_y_;
     cursor_x_ = x;
     cursor_y_ = y;
     if (drag_ != Drag::none && (dx != 0 || dy != 0)) dragged(canvas, places, dx, dy);
 }
 
-void Mouse::dragged(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double dx, double dy) {
+void Mouse::dragged(const CanvasRect& canvas, const std::vector<PanelRect>& places, double dx, double dy) {
     switch (drag_) {
         case Drag::none:
             return;
@@ -91,7 +91,7 @@ void Mouse::dragged(const CanvasRect& canvas, const std::vector<PanelPlace>& pla
     }
 }
 
-void Mouse::wheel(const Input& input, const std::vector<PanelPlace>& places) {
+void Mouse::wheel(const Input& input, const std::vector<PanelRect>& places) {
     if (state_.canvas.zoom > 0) {
         const auto under = pixelUnder(places, state_.subject.settings.size, input.x, input.y);
         const double before = state_.canvas.zoom;
@@ -111,7 +111,7 @@ void Mouse::wheel(const Input& input, const std::vector<PanelPlace>& places) {
 }
 
 // The world position of the pixel, once this view is rendered at full size; else the camera's target.
-glm::dvec3 Mouse::pivotAt(const std::vector<PanelPlace>& places, double x, double y) const {
+glm::dvec3 Mouse::pivotAt(const std::vector<PanelRect>& places, double x, double y) const {
     const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
     const auto under = pixelUnder(places, state_.subject.settings.size, x, y);
     const std::shared_ptr<const Shown>& shown = contents_.shown;

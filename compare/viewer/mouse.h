@@ -30,12 +30,12 @@ public:
 private:
     enum class Drag { none, look, wipe, image };
 
-    double wipePlace(const CanvasRect& canvas) const;
+    double wipePosition(const CanvasRect& canvas) const;
     // The cursor moved.
-    void drag(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double x, double y);
-    void dragged(const CanvasRect& canvas, const std::vector<PanelPlace>& places, double dx, double dy);
-    void wheel(const Input& input, const std::vector<PanelPlace>& places);
-    glm::dvec3 pivotAt(const std::vector<PanelPlace>& places, double x, double y) const;
+    void drag(const CanvasRect& canvas, const std::vector<PanelRect>& places, double x, double y);
+    void dragged(const CanvasRect& canvas, const std::vector<PanelRect>& places, double dx, double dy);
+    void wheel(const Input& input, const std::vector<PanelRect>& places);
+    glm::dvec3 pivotAt(const std::vector<PanelRect>& places, double x, double y) const;
 
     InterfaceState& state_;
     Contents& contents_;

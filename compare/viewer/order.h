@@ -24,9 +24,9 @@ std::string_view nameOf(Against against);  // "the other path"
 enum class Difference { none, signed_difference, absolute, relative, flip };
 std::string_view nameOf(Difference difference);  // "signed"
 
-struct PixelPlace {
+struct PixelPosition {
     int x = 0, y = 0;  // in the image, from the top left
-    bool operator==(const PixelPlace&) const = default;
+    bool operator==(const PixelPosition&) const = default;
 };
 
 // Rendering input. The Settings' path is the right panel's.
@@ -64,8 +64,8 @@ struct Order {
     std::uint64_t number = 0;  // increases
     Subject subject;
     Look look;
-    bool moving = false;              // smaller images, and nothing else
-    std::optional<PixelPlace> pixel;  // the pixel to break down
+    bool moving = false;                 // smaller images, and nothing else
+    std::optional<PixelPosition> pixel;  // the pixel to break down
 };
 
 }  // namespace diptych::viewer

@@ -62,7 +62,7 @@ void Screen::makePresenter() {
 }
 
 void Screen::draw(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                  const std::vector<PanelPlace>& places) {
+                  const std::vector<PanelRect>& places) {
     presenter_->beginFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
@@ -81,7 +81,7 @@ void Screen::draw(InterfaceState& state, const Contents& contents, const CanvasR
 }
 
 void Screen::compose(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                     const std::vector<PanelPlace>& places) {
+                     const std::vector<PanelRect>& places) {
     const Composed now{contents.shown, canvas, state.canvas, state.look.difference != Difference::none};
     if (!now.shown || now == composed_) return;
     composed_ = now;

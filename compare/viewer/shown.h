@@ -76,7 +76,7 @@ struct EvaluatedPair {
 
 struct Breakdown {
     Subject subject;
-    PixelPlace pixel;
+    PixelPosition pixel;
     PixelBreakdown breakdown;
     std::string text;
 };

@@ -332,8 +332,8 @@ private:
                     state_.canvas.zoom = 0;
                 else
                     flyTo(contents_.under ? contents_.under->pixel
-                                          : PixelPlace{state_.subject.settings.size.width / 2,
-                                                       state_.subject.settings.size.height / 2},
+                                          : PixelPosition{state_.subject.settings.size.width / 2,
+                                                          state_.subject.settings.size.height / 2},
                           zoomed);
                 break;
             case Action::worst_pixel:
@@ -440,7 +440,7 @@ private:
         change([&](Settings& s) { s.time = time; });
     }
 
-    void flyTo(const PixelPlace& pixel, std::optional<double> wanted = {}) {
+    void flyTo(const PixelPosition& pixel, std::optional<double> wanted = {}) {
         flight_.begin(now_, state_.canvas, canvasNow(), state_.subject.settings.size, pixel,
                       wanted.value_or(flown) * screen_.scale());
     }

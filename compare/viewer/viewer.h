@@ -17,10 +17,10 @@ namespace diptych::viewer {
 struct ViewerOptions {
     Subject subject;  // shown first
     Look look;
-    bool size_requested = false;      // false: images fill the window
-    std::optional<PixelPlace> pixel;  // the pixel to break down and zoom to
-    bool watch = false;               // reload a scene when its files change
-    std::filesystem::path out;        // folder for screenshots; empty: the current one
+    bool size_requested = false;         // false: images fill the window
+    std::optional<PixelPosition> pixel;  // the pixel to break down and zoom to
+    bool watch = false;                  // reload a scene when its files change
+    std::filesystem::path out;           // folder for screenshots; empty: the current one
     DeviceOptions device;
     CompareOptions compare;  // rules of the verdict
     // Receives a line for each action and its duration; may be empty.

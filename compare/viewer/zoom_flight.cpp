@@ -13,7 +13,7 @@ constexpr double flightTime = 0.3;  // s
 }  // namespace
 
 void ZoomFlight::begin(double now, const CanvasView& view, const CanvasRect& canvas, const Size& size,
-                       const PixelPlace& pixel, double zoom) {
+                       const PixelPosition& pixel, double zoom) {
     const double fits = std::min(double(canvas.width) / size.width, double(canvas.height) / size.height);
     const bool zoomed = view.zoom > 0;
     flight_ = Flight{now,

@@ -13,7 +13,7 @@ public:
     // Animates from `view` to at least `zoom` window pixels per image pixel, with `pixel` at the centre.
     // `now`: s.
     void begin(double now, const CanvasView& view, const CanvasRect& canvas, const Size& size,
-               const PixelPlace& pixel, double zoom);
+               const PixelPosition& pixel, double zoom);
     void stop() { flight_.reset(); }
     bool isFlying() const { return flight_.has_value(); }
     // Updates `view` for time `now`.

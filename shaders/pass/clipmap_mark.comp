@@ -14,10 +14,10 @@ layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2D dep
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_DEPTH) uniform sampler2DMS depth_samples;
 layout(set = SET_CLIPMAP, binding = BINDING_CLIPMAP_MARKS, scalar) buffer Marks { uint marks[]; };
 
-// `place`: position in the image, pixels. `z`: reversed depth there.
-void mark(const vec2 place, const float z) {
+// `point`: position in the image, pixels. `z`: reversed depth there.
+void mark(const vec2 point, const float z) {
     if (z == 0.0) return;  // no geometry
-    vec3 position = positionFromDepth(place, z);
+    vec3 position = positionFromDepth(point, z);
     Clipmap map = clipmap();
     uint page = pageAt(map, shadowLight(), levelAt(map, position), position);
     // Most pixels find their page already marked, which avoids contention of atomics.
@@ -34,6 +34,6 @@ void main() {
     }
     uint i = 0u;
     do {
-        mark(vec2(p) + samplePlace(i), reversedDepth(texelFetch(depth_samples, p, int(i)).r));
+        mark(vec2(p) + sampleLocation(i), reversedDepth(texelFetch(depth_samples, p, int(i)).r));
     } while (++i < feature_samples);
 }

@@ -39,7 +39,7 @@ void main() {
     if (number >= constants.part_count) return;
     CulledPart part = PartArray(constants.parts).at[number];
     CulledItem item = ItemArray(constants.items).at[part.item];
-    CulledImage image = CulledImage(constants.half_size, constants.samples, constants.place_off,
+    CulledImage image = CulledImage(constants.half_size, constants.samples, constants.position_error,
                                           constants.snap);
 
     if (lane < CULLED_CLUSTERS / 32u) in_view[lane] = 0u;
@@ -53,14 +53,14 @@ void main() {
         if (keeps) atomicOr(in_view[lane / 32u], 1u << (lane & 31u));
     }
     barrier();
-    uint cluster_count = 0u, cluster_place = 0u;
+    uint cluster_count = 0u, cluster_offset = 0u;
     for (uint i = 0u; i < CULLED_CLUSTERS / 32u; ++i) {
-        cluster_place += i < lane / 32u ? uint(bitCount(in_view[i])) : 0u;
+        cluster_offset += i < lane / 32u ? uint(bitCount(in_view[i])) : 0u;
         cluster_count += uint(bitCount(in_view[i]));
     }
     if (keeps) {
-        cluster_place += uint(bitCount(in_view[lane / 32u] & bitsBefore(lane)));
-        clusters[cluster_place] = cluster;
+        cluster_offset += uint(bitCount(in_view[lane / 32u] & bitsBefore(lane)));
+        clusters[cluster_offset] = cluster;
     }
     barrier();
 

@@ -15,7 +15,7 @@ layout(set = SET_GBUFFER, binding = BINDING_LIT_TARGET, rgba32f) writeonly unifo
 void main() {
     uint entry = entryAt(uvec2(gl_FragCoord.xy), constants.group);
     bool listed = entry < imageLoad(further_count, ivec2(0)).r;
-    uint word = imageLoad(further_list, placeInList(listed ? entry : 0u)).r;
+    uint word = imageLoad(further_list, indexInList(listed ? entry : 0u)).r;
     ivec2 p = pixelOfListed(word);
     SampleGroup group = sampleGroup(depthAt(p), groupOfListed(word));
     float z;

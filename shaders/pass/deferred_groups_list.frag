@@ -17,7 +17,7 @@ void main() {
     if (once && count > 1u) {
         uint first = imageAtomicAdd(further_count, ivec2(0), count - 1u), k = 1u;
         do {
-            if (k < count) imageStore(further_list, placeInList(first + k - 1u), uvec4(listedGroup(p, k)));
+            if (k < count) imageStore(further_list, indexInList(first + k - 1u), uvec4(listedGroup(p, k)));
         } while (++k < feature_samples);
     }
 }

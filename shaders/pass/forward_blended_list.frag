@@ -15,9 +15,9 @@ void main() {
     BlendedFragment f = blendedFragment();
     if (!isListed(p) || f.opacity == 0.0) return;
     uint pixel = listedPixel(p);
-    uint place = placeOf(pixel, fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
-    if (place < list_of.layers) {
-        fragments[place * listedPixels() + pixel] = vec4(f.radiance, f.opacity);
+    uint index = placeOf(pixel, fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
+    if (index < list_of.layers) {
+        fragments[index * listedPixels() + pixel] = vec4(f.radiance, f.opacity);
         return;
     }
     addToSum(pixel, 0, f.radiance.r);

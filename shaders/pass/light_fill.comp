@@ -43,13 +43,13 @@ void main() {
                 pad(area + count.all - count.points_and_spots, head.end * grid.width);
         }
     }
-    uint place = list * grid.segments;
-    for (uint i = place; i < place + segment; ++i) {
+    uint index = list * grid.segments;
+    for (uint i = index; i < index + segment; ++i) {
         point += counts[i].points;
         spot += counts[i].points_and_spots - counts[i].points;
         area += counts[i].all - counts[i].points_and_spots;
     }
-    uint left = fits ? counts[place + segment].all : 0u;
+    uint left = fits ? counts[index + segment].all : 0u;
     uint mask = 0u, word = 0u, used = 0u, next = segment * (SEGMENT_WORDS / 32u), first = 0u;
     // A single loop over words and bits, because nested loops would each run one iteration too many on
     // lavapipe. Each iteration writes a light, unless it skips 32 empty words.

@@ -7,6 +7,6 @@ layout(location = 0) out vec4 out_value;
 
 // Result of the device's sampler at given texture coordinates, level 0.
 void main() {
-    vec4 place = texelFetch(places, ivec2(gl_FragCoord.xy), 0);
-    out_value = textureLod(image, place.xy, 0.0);
+    vec4 position = texelFetch(places, ivec2(gl_FragCoord.xy), 0);
+    out_value = textureLod(image, position.xy, 0.0);
 }

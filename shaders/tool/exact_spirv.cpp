@@ -24,16 +24,16 @@ Words exact(const Words& words) {
     for (std::size_t i = 5; i < words.size(); i += words[i] >> 16)
         if ((words[i] & 0xffff) == opDecorate && words[i + 2] == noContraction)
             decorated.insert(words[i + 1]);
-    std::size_t place = 0;
+    std::size_t index = 0;
     Words decorations;
     for (std::size_t i = 5; i < words.size(); i += words[i] >> 16) {
         const std::uint32_t op = words[i] & 0xffff;
-        if (place == 0 && op >= opTypeFirst && op <= opConstantLast) place = i;
+        if (index == 0 && op >= opTypeFirst && op <= opConstantLast) index = i;
         if (isOperation(op) && decorated.insert(words[i + 2]).second)
             decorations.insert(decorations.end(), {3u << 16 | opDecorate, words[i + 2], noContraction});
     }
     Words result = words;
-    result.insert(result.begin() + static_cast<std::ptrdiff_t>(place), decorations.begin(),
+    result.insert(result.begin() + static_cast<std::ptrdiff_t>(index), decorations.begin(),
                   decorations.end());
     return result;
 }

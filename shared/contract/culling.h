@@ -66,11 +66,11 @@ struct CullingConstants {
     uvec2 chosen;     // uint[]: vertex indices of the triangles that may be visible
     uvec2 draws;      // IndirectDraw[]
     uint part_count;
-    uint samples;     // per pixel: 1, 4 or 8
-    vec2 half_size;   // of the image, pixels
-    float place_off;  // pixels: largest difference between two devices' positions of one vertex, without
-                      // the clip-space error
-    float snap;       // pixels: largest distance by which a rasterizer snaps a vertex
+    uint samples;          // per pixel: 1, 4 or 8
+    vec2 half_size;        // of the image, pixels
+    float position_error;  // pixels: largest difference between two devices' positions of one vertex, without
+                           // the clip-space error
+    float snap;            // pixels: largest distance by which a rasterizer snaps a vertex
 };
 
 CONTRACT_END

@@ -12,9 +12,9 @@ CONTRACT_CONST(uint, MAX_SAMPLES, 8);
 CONTRACT_CONST(uint, SAMPLE_IMAGES, 4);  // that a pass reads one sample of
 
 // Two 4-bit coordinates per sample, x in the lower bits; the first sample is in the lowest byte.
-CONTRACT_CONST(uint, SAMPLE_PLACES_4, 0xeaa26e26u);
-CONTRACT_CONST(uint, SAMPLE_PLACES_8_LOW, 0x359db759u);
-CONTRACT_CONST(uint, SAMPLE_PLACES_8_HIGH, 0x1ffb71d3u);
+CONTRACT_CONST(uint, SAMPLE_LOCATIONS_4, 0xeaa26e26u);
+CONTRACT_CONST(uint, SAMPLE_LOCATIONS_8_LOW, 0x359db759u);
+CONTRACT_CONST(uint, SAMPLE_LOCATIONS_8_HIGH, 0x1ffb71d3u);
 
 // Order in which an alpha mask covers samples (MASK_COVERS of material.h): 4-bit sample indices, the first
 // in the lowest bits. Each sample is far from those before it, so the covered region is centred in the

@@ -17,33 +17,33 @@ namespace {
 
 struct Placed {
     Channel mode;
-    PlaceInCaptures place;
+    CaptureIndex place;
 };
-constexpr std::array capture_places{
+constexpr std::array capture_indices{
 #define DIPTYCH_CAPTURE(name, image, component, value) Placed{Channel::name, {image, component}},
     CAPTURES(DIPTYCH_CAPTURE)
 #undef DIPTYCH_CAPTURE
 };
-static_assert(capture_places.back().place.image + 1 == gpu::CAPTURE_IMAGES);
+static_assert(capture_indices.back().place.image + 1 == gpu::CAPTURE_IMAGES);
 
 }  // namespace
 
-PlaceInCaptures placeInCaptures(Channel mode) {
-    const auto found = std::ranges::find(capture_places, mode, &Placed::mode);
-    if (found == capture_places.end())
+CaptureIndex captureIndex(Channel mode) {
+    const auto found = std::ranges::find(capture_indices, mode, &Placed::mode);
+    if (found == capture_indices.end())
         throw std::out_of_range("no capture of debug mode " + std::to_string(channelNumber(mode)));
     return found->place;
 }
 
 std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit, std::size_t max) {
     gpu::uint images = 0;
-    for (const Channel mode : modes) images |= 1u << placeInCaptures(mode).image;
+    for (const Channel mode : modes) images |= 1u << captureIndex(mode).image;
     const auto lit_images = static_cast<std::size_t>(std::popcount(images >> gpu::FIRST_LIT_IMAGE));
     const bool unlit = std::ranges::none_of(modes, [](Channel mode) {
-        return placeInCaptures(mode).image >= gpu::FIRST_LIT_IMAGE && mode != Channel::shadow_visibility;
+        return captureIndex(mode).image >= gpu::FIRST_LIT_IMAGE && mode != Channel::shadow_visibility;
     });
     std::vector<CaptureGroup> groups;
-    for (const auto& [mode, place] : capture_places) {
+    for (const auto& [mode, place] : capture_indices) {
         if (std::ranges::find(modes, mode) == modes.end()) continue;
         const gpu::uint bit = 1u << place.image;
         // Number of images that must go into one pass: one, or all lit images at the first of them.
@@ -73,7 +73,7 @@ std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const 
         std::vector<Channel> modes;
         std::string name;
         for (const Channel mode : group.modes) {
-            if (placeInCaptures(mode).image != i) continue;
+            if (captureIndex(mode).image != i) continue;
             name += (modes.empty() ? "" : ", ") + std::string(debugMode(mode).name);
             modes.push_back(mode);
         }
@@ -88,14 +88,14 @@ std::vector<CapturedImage> addCaptureImages(PassList& passes, Pass& pass, const 
         if (goes_on) {
             pass.color(image, Load::keep);
         } else {
-            const auto [of, component] = placeInCaptures(Channel::material_id);
+            const auto [of, component] = captureIndex(Channel::material_id);
             VkClearColorValue background{};
             if (of == i) background.float32[component] = -1;
             pass.color(image, Load::clear, background);
         }
         for (const Channel mode : modes) {
             images.push_back(
-                {mode, image, static_cast<int>(placeInCaptures(mode).component), passes.size() - 1});
+                {mode, image, static_cast<int>(captureIndex(mode).component), passes.size() - 1});
             images.back().every_sample = std::ranges::count(every_sample, mode) > 0;
         }
     }

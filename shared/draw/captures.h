@@ -15,10 +15,10 @@
 namespace diptych {
 
 // Position of a channel in the images of captures (CAPTURES of contract/debug_mode.h).
-struct PlaceInCaptures {
+struct CaptureIndex {
     gpu::uint image = 0, component = 0;  // of its first component
 };
-PlaceInCaptures placeInCaptures(Channel mode);  // throws std::out_of_range
+CaptureIndex captureIndex(Channel mode);  // throws std::out_of_range
 
 // A capture pass: up to MAX_COLOR_ATTACHMENTS images, in the order of CAPTURES, with all requested channels
 // in them. Channels that do not depend on light have passes of their own, unless all lit channels fit in

@@ -70,11 +70,11 @@ void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> po
     entry.first_corner = static_cast<std::uint32_t>(values_.size());
     values_.resize(values_.size() + std::size_t{3} * entry.corners);
     for (std::size_t i = 0; i < used.size(); ++i) {
-        const glm::vec3 place(glm::dvec3(positions[used[i]]) - middle);
+        const glm::vec3 position(glm::dvec3(positions[used[i]]) - middle);
         float* const value = values_.data() + entry.first_corner + i;
-        value[0] = place.x;
-        value[entry.corners] = place.y;
-        value[2 * entry.corners] = place.z;
+        value[0] = position.x;
+        value[entry.corners] = position.y;
+        value[2 * entry.corners] = position.z;
     }
     entry.first_number = static_cast<std::uint32_t>(numbers_.size());
     for (const std::uint32_t index : indices)

@@ -46,7 +46,7 @@ ComputeCulling::ComputeCulling(Device& device, Pipelines& pipelines, VkPipelineL
                   sizes.parts,
                   static_cast<gpu::uint>(grid.samples),
                   glm::vec2(grid.width, grid.height) * 0.5f,
-                  static_cast<float>(placesApart * placeError(grid)),
+                  static_cast<float>(placesApart * positionError(grid)),
                   static_cast<float>(grid.snap)};
 }
 

@@ -54,7 +54,7 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
     const bool computes = culls && device.profile().culls_by_compute;
     const SampleGrid grid = gridOf(device, view, samples);
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
-    std::uint32_t place = 0;
+    std::uint32_t slot = 0;
     draws_.runs.clear();
     const DeviceCosts& costs = device.profile().costs;
     std::uint32_t to_come = 0;  // remaining instances of the current draw
@@ -81,12 +81,12 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
                   static_cast<std::uint32_t>(order_.size()),
                   static_cast<std::uint32_t>(parts_.size()),
                   (range.cluster_count + partClusters - 1) / partClusters,
-                  place,
+                  slot,
                   whole};
         addParts(made);
         if (computes && !whole)
             addCulled(made, culledItem(item, draws_.draws[item.draw], made.shown, oneSided));
-        if (!whole) place += range.index_count;
+        if (!whole) slot += range.index_count;
         item.chosen = !whole;
         item.first_run = made.first_part;
         item.runs = made.parts;
@@ -96,12 +96,12 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
     if (!any()) return;
     draws_.runs.resize(parts_.size());
     if (culled_parts_.empty()) {
-        runOnHost(device, place);
+        runOnHost(device, slot);
         return;
     }
     const ComputeCulling::Sizes sizes{
         static_cast<std::uint32_t>(culled_items_.size()), static_cast<std::uint32_t>(culled_parts_.size()),
-        static_cast<std::uint32_t>(order_.size()), place, static_cast<std::uint32_t>(parts_.size())};
+        static_cast<std::uint32_t>(order_.size()), slot, static_cast<std::uint32_t>(parts_.size())};
     compute_.emplace(device, pipelines, layouts.culling, geometry, grid, sizes);
     std::ranges::copy(culled_items_, compute_->items().begin());
     runOnGpu();
@@ -153,13 +153,13 @@ void Culling::order(const Item& item) {
         sorted[k] = {glm::dot(item.depth, glm::dvec4(middleOf(geometry_.cluster(cluster)), 1)), cluster};
     }
     std::sort(sorted.begin(), sorted.end());
-    std::uint32_t place = item.place;
+    std::uint32_t slot = item.place;
     for (std::uint32_t p = item.first_part; p < item.first_part + item.parts; ++p) {
         Part& part = parts_[p];
-        part.place = place;
+        part.place = slot;
         for (std::uint32_t k = part.first; k < part.first + part.clusters; ++k) {
             order_[k] = sorted[k - item.first].cluster;
-            place += geometry_.cluster(order_[k]).index_count;
+            slot += geometry_.cluster(order_[k]).index_count;
         }
     }
 }

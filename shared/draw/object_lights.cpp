@@ -13,10 +13,10 @@ namespace diptych {
 namespace {
 
 // Bounding box of the item in world axes from the camera.
-ObjectPlace placeOf(const DrawItem& item, const gpu::Draw& draw) {
+ObjectPosition placeOf(const DrawItem& item, const gpu::Draw& draw) {
     const glm::dvec3 centre = (item.range.bounds_min + item.range.bounds_max) * 0.5;
     const glm::dvec3 half = (item.range.bounds_max - item.range.bounds_min) * 0.5;
-    ObjectPlace place;
+    ObjectPosition place;
     place.centre = glm::dvec3(draw.world_from_object[3]);
     for (int axis = 0; axis < 3; ++axis) {
         const glm::dvec3 column(draw.world_from_object[axis]);
@@ -34,7 +34,7 @@ ObjectLightBuffers::ObjectLightBuffers(Device& device, Uploader& uploader, const
     ObjectLightLists lists;
     if (pixels) {
         const auto start = std::chrono::steady_clock::now();
-        std::vector<ObjectPlace> places(draws.draws.size());
+        std::vector<ObjectPosition> places(draws.draws.size());
         for (const DrawItem& item : draws.items) places[item.draw] = placeOf(item, draws.draws[item.draw]);
         lists = objectLightLists(lights, places, *pixels);
         chosen_in_ms_ =

@@ -35,9 +35,9 @@ bool holdsSample(double low, double high, int samples, int shift) {
     for (int i = 0; i < samples; ++i) {
         unsigned place = 0;
         if (samples == 4)
-            place = gpu::SAMPLE_PLACES_4 >> (8 * i);
+            place = gpu::SAMPLE_LOCATIONS_4 >> (8 * i);
         else if (samples == 8)
-            place = (i < 4 ? gpu::SAMPLE_PLACES_8_LOW : gpu::SAMPLE_PLACES_8_HIGH) >> (8 * (i % 4));
+            place = (i < 4 ? gpu::SAMPLE_LOCATIONS_8_LOW : gpu::SAMPLE_LOCATIONS_8_HIGH) >> (8 * (i % 4));
         else
             return true;
         if (holdsSample(low, high, ((place >> shift) & 15u) / 16.0)) return true;
@@ -47,7 +47,7 @@ bool holdsSample(double low, double high, int samples, int shift) {
 
 }  // namespace
 
-double placeError(const SampleGrid& grid) {
+double positionError(const SampleGrid& grid) {
     return placeRounding * std::max(grid.width, grid.height);
 }
 
@@ -122,8 +122,8 @@ bool VisibleClusters::isBetweenSamples(const Cluster& cluster, double nearest, d
            !holdsSample(low.y - off, high.y + off, grid_.samples, 4);
 }
 
-double VisibleClusters::placeOff(double nearest) const {
-    return placeError(grid_) +
+double VisibleClusters::positionErrorOf(double nearest) const {
+    return positionError(grid_) +
            0.5 * std::max(grid_.width * (error_.x + error_.w), grid_.height * (error_.y + error_.w)) /
                nearest;
 }
@@ -146,7 +146,7 @@ TriangleSet VisibleClusters::of(const Cluster& cluster, const ClusterTriangles& 
     const double deep = glm::dot(glm::abs(w), half), at = glm::dot(w, middle) + rows_[3].w,
                  nearest = at - deep - error_.w, farthest = at + deep;
     if (!(nearest > 0)) return entry.all();
-    const double placed = placeOff(nearest), off = grid_.snap + placed;
+    const double placed = positionErrorOf(nearest), off = grid_.snap + placed;
     if (isBetweenSamples(cluster, nearest, off)) return 0;
     TriangleSet set = entry.all();
     if (!(entry.largest_circle > 0)) return set;

@@ -20,7 +20,7 @@ struct SampleGrid {
 };
 
 // Error bound of a vertex's window position for exact clip coordinates, pixels.
-double placeError(const SampleGrid& grid);
+double positionError(const SampleGrid& grid);
 
 // Visibility of one instance.
 class VisibleClusters {
@@ -43,7 +43,7 @@ private:
         double w, slack;
     };
     // Error bound of a meshlet corner's window position, pixels. `nearest`: its smallest w.
-    double placeOff(double nearest) const;
+    double positionErrorOf(double nearest) const;
     bool isBetweenSamples(const Cluster& cluster, double nearest, double off) const;
 
     SampleGrid grid_;

@@ -82,7 +82,7 @@ void BrightPixels::eachPart(int side, const Visit& visit) const {
 
 void BrightPixels::addTo(OctahedralMap& map) const {
     eachPart(map.side, [&](const glm::vec3& direction, const Texel& power) {
-        const glm::vec2 p = octahedralPlace(direction);
+        const glm::vec2 p = octahedralPosition(direction);
         const auto texel = [&](float at) {
             const float half = 0.5f * static_cast<float>(map.side);
             return std::clamp(static_cast<int>(at * half + half), 0, map.side - 1);
@@ -97,7 +97,7 @@ void BrightPixels::addTo(OctahedralMap& map) const {
 void BrightPixels::addTo(NodeMap& map) const {
     const int last = map.side - 1;
     eachPart(last, [&](const glm::vec3& direction, const Texel& power) {
-        const glm::vec2 p = octahedralPlace(direction);
+        const glm::vec2 p = octahedralPosition(direction);
         const auto node = [&](float at) {
             return static_cast<int>(std::lround((at * 0.5f + 0.5f) * static_cast<float>(last)));
         };

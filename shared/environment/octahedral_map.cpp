@@ -23,7 +23,7 @@ glm::vec2 wrapped(glm::vec2 p) {
 
 }  // namespace
 
-glm::vec2 octahedralPlace(const glm::vec3& d) {
+glm::vec2 octahedralPosition(const glm::vec3& d) {
     const float scale = 1 / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
     const glm::vec2 p(d.x * scale, d.z * scale);
     return d.y < 0 ? wrapped(p) : p;
@@ -89,10 +89,10 @@ Texel meanOver(const LatLong& light, glm::vec2 middle, float width, int parts) {
             const auto along = [&](int k) {
                 return width * ((static_cast<float>(k) + 0.5f) / static_cast<float>(parts) - 0.5f);
             };
-            glm::vec2 place = middle + glm::vec2(along(i), along(j));
-            if (std::abs(place.x) > 1) place = {2 * signOf(place.x) - place.x, -place.y};
-            if (std::abs(place.y) > 1) place = {-place.x, 2 * signOf(place.y) - place.y};
-            const glm::vec3 d = octahedralDirection(place);
+            glm::vec2 position = middle + glm::vec2(along(i), along(j));
+            if (std::abs(position.x) > 1) position = {2 * signOf(position.x) - position.x, -position.y};
+            if (std::abs(position.y) > 1) position = {-position.x, 2 * signOf(position.y) - position.y};
+            const glm::vec3 d = octahedralDirection(position);
             const float l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z), weight = l1 * l1 * l1;
             sum += light.radiance(d) * weight;
             weights += weight;
@@ -138,16 +138,16 @@ NodeMap atNodes(const OctahedralMap& map, int side) {
 }
 
 // Same interpolation as mapRadiance() of shaders/lib/environment/environment.glsl.
-glm::vec3 NodeMap::interpolated(glm::vec2 place) const {
+glm::vec3 NodeMap::interpolated(glm::vec2 position) const {
     const float cells = static_cast<float>(side - 1);
-    const glm::vec2 at = (place * 0.5f + 0.5f) * cells;
+    const glm::vec2 at = (position * 0.5f + 0.5f) * cells;
     const glm::ivec2 c = glm::min(glm::ivec2(at), glm::ivec2(side - 2));
     const glm::vec2 f = at - glm::vec2(c);
     const auto node = [&](int x, int y) {
         const Texel& t = this->at(c.x + x, c.y + y);
         return glm::vec3(t[0], t[1], t[2]);
     };
-    if (place.x * place.y >= 0) {
+    if (position.x * position.y >= 0) {
         const float beyond = f.x + f.y - 1;
         return beyond < 0 ? node(0, 0) * -beyond + node(1, 0) * f.x + node(0, 1) * f.y
                           : node(1, 1) * beyond + node(1, 0) * (1 - f.y) + node(0, 1) * (1 - f.x);

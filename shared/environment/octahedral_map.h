@@ -14,8 +14,8 @@
 namespace diptych {
 
 // Points p are in [-1, 1]^2. The solid angle per area there is |d|_1^3, for a unit direction d.
-glm::vec2 octahedralPlace(const glm::vec3& direction);
-glm::vec3 octahedralDirection(glm::vec2 place);  // unit
+glm::vec2 octahedralPosition(const glm::vec3& direction);
+glm::vec3 octahedralDirection(glm::vec2 position);  // unit
 
 // A texel of four floats, which fits one vector register.
 using Texel = float __attribute__((vector_size(16)));
@@ -36,9 +36,9 @@ struct OctahedralMap {
         return {(static_cast<float>(x) + 0.5f) * step - 1, (static_cast<float>(y) + 0.5f) * step - 1};
     }
     double solidAngle(int x, int y) const;  // of a texel, sr
-    Texel bilinear(glm::vec2 place) const {
+    Texel bilinear(glm::vec2 position) const {
         const float half = 0.5f * static_cast<float>(side);
-        const float x = place.x * half + half + 0.5f, y = place.y * half + half + 0.5f;
+        const float x = position.x * half + half + 0.5f, y = position.y * half + half + 0.5f;
         const int left = static_cast<int>(x), top = static_cast<int>(y);
         const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(top);
         const Texel* t = texels.data() + static_cast<std::size_t>(top) * static_cast<std::size_t>(side + 2) +
@@ -79,7 +79,7 @@ struct NodeMap {
         const float step = 2 / static_cast<float>(side - 1);
         return {static_cast<float>(x) * step - 1, static_cast<float>(y) * step - 1};
     }
-    glm::vec3 interpolated(glm::vec2 place) const;
+    glm::vec3 interpolated(glm::vec2 position) const;
 };
 
 // Radiance at nodes, each the mean over the directions nearest to it.

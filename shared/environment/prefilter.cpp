@@ -72,13 +72,13 @@ float smallLog2(float x) {
     return t * (1.42f - t * (0.56f - 0.155f * t));
 }
 
-Texel trilinear(const std::vector<OctahedralMap>& source, glm::vec2 place, float level) {
+Texel trilinear(const std::vector<OctahedralMap>& source, glm::vec2 position, float level) {
     const float clamped = std::clamp(level, 0.0f, static_cast<float>(source.size() - 1));
     const auto lower = static_cast<std::size_t>(clamped);
     const float between = clamped - static_cast<float>(lower);
-    const Texel fine = source[lower].bilinear(place);
+    const Texel fine = source[lower].bilinear(position);
     if (lower + 1 == source.size()) return fine;
-    return fine + (source[lower + 1].bilinear(place) - fine) * between;
+    return fine + (source[lower + 1].bilinear(position) - fine) * between;
 }
 
 template <class F>
@@ -131,7 +131,8 @@ NodeMap filtered(const std::vector<OctahedralMap>& source, double alpha, int sid
         for (const LobeSample& sample : samples) {
             const glm::vec3 d = frame.world(sample.direction);
             const float l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-            sum += trilinear(source, octahedralPlace(d), sample.level - 1.5f * smallLog2(l1)) * sample.weight;
+            sum +=
+                trilinear(source, octahedralPosition(d), sample.level - 1.5f * smallLog2(l1)) * sample.weight;
             weights += sample.weight;
         }
         return sum / weights;

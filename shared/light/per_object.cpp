@@ -35,7 +35,7 @@ double nearestCosine(const glm::dvec3& axis, const glm::dvec3& to_centre, double
 }
 
 // Enlarges the box by more than the shaders' float32 rounding of positions and comparisons.
-ObjectPlace widened(ObjectPlace object) {
+ObjectPosition widened(ObjectPosition object) {
     constexpr double relative = 1e-5;
     object.half += relative * (glm::abs(object.centre) + object.half);
     return object;
@@ -74,11 +74,11 @@ std::vector<double> fractionsIn(std::vector<std::size_t>& members, std::size_t r
 
 }  // namespace
 
-double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& object) {
+double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPosition& object) {
     const gpu::Light& light = lights.lights[i];
     const double strength = luminance(glm::dvec3(light.intensity));
     if (i < lights.directional) return strength;
-    const ObjectPlace box = widened(object);
+    const ObjectPosition box = widened(object);
     const glm::dvec3 to_centre = box.centre - glm::dvec3(light.position);
     const glm::dvec3 outside = glm::max(glm::abs(to_centre) - box.half, glm::dvec3(0));
     const double nearest = glm::length(outside), radius = glm::length(box.half);
@@ -103,7 +103,7 @@ double fade(double brightness, double threshold) {
     return x * x * (3 - 2 * x);
 }
 
-std::vector<LightFractions> lightFractions(const GpuLights& lights, const ObjectPlace& object,
+std::vector<LightFractions> lightFractions(const GpuLights& lights, const ObjectPosition& object,
                                            std::uint32_t pixels) {
     const std::size_t count = lights.count();
     std::vector<double> brightness(count);
@@ -151,7 +151,7 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dv
 }
 
 void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size_t i,
-                  const ObjectPlace& object, double fraction) {
+                  const ObjectPosition& object, double fraction) {
     const gpu::Light& light = lights.lights[i];
     const glm::dvec3 intensity = glm::dvec3(light.intensity) * fraction;
     if (i < lights.directional) return addHarmonics(sum, intensity, glm::dvec3(light.position));
@@ -167,7 +167,7 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size
     if (shone > 0) addHarmonics(sum, intensity * shone, l, distance / soft);
 }
 
-ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const ObjectPlace> objects,
+ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const ObjectPosition> objects,
                                   std::uint32_t pixels) {
     struct Own {
         gpu::ObjectLights head{};  // relative to the object's own entries

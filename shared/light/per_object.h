@@ -14,7 +14,7 @@
 namespace diptych {
 
 // Bounding box of an object, axis-aligned, in world axes from the camera, m.
-struct ObjectPlace {
+struct ObjectPosition {
     glm::dvec3 centre{0}, half{0};
     bool harmonics = true;  // false: its harmonics are dropped (an object with a lightmap)
 };
@@ -23,7 +23,7 @@ struct ObjectPlace {
 // (GpuLights::falloff) at the nearest point of the box: upper bounds over it. Distances are softened by half
 // the box's radius, so that a light inside the box does not outrank all others. 0 only if no point of the box
 // receives light.
-double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPlace& object);
+double brightnessAt(const GpuLights& lights, std::size_t i, const ObjectPosition& object);
 
 // Fraction of a light in the better of two groups. 0 at the brightness `threshold` of the brightest light
 // beyond the group's capacity, 1 from fadeRange times that on, smooth in between: so nothing pops when two
@@ -40,7 +40,7 @@ struct LightFractions {
 // `pixels`: lights per pixel. Marks (Light::importance): important lights are shaded per pixel in their
 // range, in addition to `pixels` others; unimportant ones never are. GpuLights::base is always shaded per
 // pixel. Lights of exactly the threshold's brightness fill the remaining capacity in scene order.
-std::vector<LightFractions> lightFractions(const GpuLights& lights, const ObjectPlace& object,
+std::vector<LightFractions> lightFractions(const GpuLights& lights, const ObjectPosition& object,
                                            std::uint32_t pixels);
 
 // Adds a light of irradiance `e` from the unit direction `to_light`. The bands of the clamped cosine are
@@ -52,7 +52,7 @@ void addHarmonics(gpu::ObjectIrradiance& sum, const glm::dvec3& e, const glm::dv
 // Adds the irradiance of light `i` at an object's centre, softened by the box's radius: inside it the
 // light becomes more uniform.
 void addHarmonics(gpu::ObjectIrradiance& sum, const GpuLights& lights, std::size_t i,
-                  const ObjectPlace& object, double fraction);
+                  const ObjectPosition& object, double fraction);
 
 struct ObjectLightLists {
     std::vector<gpu::ObjectLights> objects;  // same order as the input
@@ -63,7 +63,7 @@ struct ObjectLightLists {
 
 // Uses all cores. Lights that reach no point of an object are in none of its lists: their contribution is
 // exactly zero.
-ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const ObjectPlace> objects,
+ObjectLightLists objectLightLists(const GpuLights& lights, std::span<const ObjectPosition> objects,
                                   std::uint32_t pixels);
 
 }  // namespace diptych

@@ -39,20 +39,20 @@ std::vector<float> sampled(Device& device, const TextureImage& content, bool srg
     constexpr int width = probeWidth;
     const int height = static_cast<int>(places.size()) / width;
     TextureImage where{"places", width, height, {}};
-    for (const glm::vec2& place : places)
-        where.rgba32.insert(where.rgba32.end(), {place.x, place.y, 0.0f, 0.0f});
+    for (const glm::vec2& position : places)
+        where.rgba32.insert(where.rgba32.end(), {position.x, position.y, 0.0f, 0.0f});
     Uploader uploader(device);
     const auto upload = [&](const TextureImage& image, bool colors) {
         const TextureFormat format = textureFormat(device, image, colors, precision);
         return uploadTexture(device, uploader, MipChain(image, colors, format.texels), format.format);
     };
-    const GpuImage placesImage = upload(where, true), imageImage = upload(content, srgb);
+    const GpuImage positionsImage = upload(where, true), imageImage = upload(content, srgb);
     uploader.flush();
     const OwnedSampler fetch = makeNearestSampler(device),
                        sampler = makeSampler(device, probeSampler(linear));
     const OwnedDescriptorSetLayout setLayout = makeSetLayout(device, probeTypes);
     DescriptorSets sets(device, setLayout, probeTypes, 1);
-    sets.image(0, 0, placesImage.view(), fetch, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    sets.image(0, 0, positionsImage.view(), fetch, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     sets.image(0, 1, imageImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
     const OwnedPipelineLayout layout =

@@ -111,7 +111,7 @@ void addTransmissionCapture(PassList& passes, const FrameInputs& inputs, ImageRe
         if (image->image.index == last.index) continue;
         last = image->image;
         pass.color(last, Load::keep);
-        group.images |= 1u << placeInCaptures(image->mode).image;
+        group.images |= 1u << captureIndex(image->mode).image;
         group.formats.push_back(passes.format(last));
     }
     addDraws(pass, passes, inputs, backdrop, [&](const DrawItem& item) {

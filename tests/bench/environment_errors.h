@@ -146,9 +146,9 @@ inline glm::dvec3 filteredRadiance(const EnvironmentMaps& maps, double alpha, co
                                          : 1 + double{gpu::ENVIRONMENT_LEVELS_AN_OCTAVE} * (octaves - first);
     const double lower = std::min(std::floor(level), static_cast<double>(maps.levels.size() - 2));
     const auto index = static_cast<std::size_t>(lower);
-    const glm::vec2 place = octahedralPlace(glm::vec3(direction));
-    const glm::dvec3 fine(maps.levels[index].interpolated(place)),
-        coarse(maps.levels[index + 1].interpolated(place));
+    const glm::vec2 position = octahedralPosition(glm::vec3(direction));
+    const glm::dvec3 fine(maps.levels[index].interpolated(position)),
+        coarse(maps.levels[index + 1].interpolated(position));
     return fine + (coarse - fine) * (level - lower);
 }
 
@@ -289,7 +289,7 @@ inline IrradianceErrors irradianceErrors(const AllDirections& sky, const Environ
             sky.integral({n, 1, 1},
                          [&](const dvec3& l) { return std::max(glm::dot(n, l), 0.0) / std::numbers::pi; }),
             glm::max(evaluate(raw, n), dvec3(0)), glm::max(evaluate(damped, n), dvec3(0)),
-            dvec3(maps.diffuse.interpolated(octahedralPlace(glm::vec3(n))))};
+            dvec3(maps.diffuse.interpolated(octahedralPosition(glm::vec3(n))))};
     });
     double mean = 0, peak = 0;
     for (const auto& v : values)

@@ -37,8 +37,9 @@ Pair images(double stops) {
     for (int y = 0; y < 1080; ++y)
         for (int x = 0; x < 1920; ++x)
             for (int c = 0; c < 3; ++c) {
-                const double place = (x + 0.1 * y * c) / (1920 + 216);
-                const auto value = static_cast<float>(stops > 0 ? std::exp2(stops * (place - 0.5)) : place);
+                const double position = (x + 0.1 * y * c) / (1920 + 216);
+                const auto value =
+                    static_cast<float>(stops > 0 ? std::exp2(stops * (position - 0.5)) : position);
                 pair.reference.at(x, y, c) = value * noise(random);
                 pair.test.at(x, y, c) = value * noise(random);
             }

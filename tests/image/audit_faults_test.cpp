@@ -86,8 +86,8 @@ TEST(AuditFaults, AFloat32WorldTransformBreaksWhereTheorySays) {
             for (Primitive& p : drawn.scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
                 for (glm::vec3& normal : p.normals) normal = glm::vec3(turned * glm::dvec3(normal));
                 for (glm::vec3& position : p.positions) {
-                    const glm::dvec3 place = rounded(glm::dvec3(world * glm::dvec4(position, 1)));
-                    position = glm::vec3(place - glm::dvec3(origin[3]));
+                    const glm::dvec3 location = rounded(glm::dvec3(world * glm::dvec4(position, 1)));
+                    position = glm::vec3(location - glm::dvec3(origin[3]));
                 }
             }
             node.parent = -1;

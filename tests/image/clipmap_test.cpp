@@ -174,10 +174,10 @@ TEST(ClipmapPlane, IsFullyLit) {
 TEST(ClipmapPlane, IsFullyLitByTheFinestLevel) {
     for (const double degrees : {0.3, 3.0, 20.0, 60.0, 90.0})
         for (const int kernel : {1, 7})
-            for (const glm::dvec3& place : {glm::dvec3(0.013, 0, 0.021), glm::dvec3(3.9, 0, -3.9)}) {
+            for (const glm::dvec3& point : {glm::dvec3(0.013, 0, 0.021), glm::dvec3(3.9, 0, -3.9)}) {
                 Settings settings = paged(GBufferEncoding::standard, 512, kernel);
                 settings.camera =
-                    cameraAt(place + glm::dvec3(0, 2e-4, 0), place + glm::dvec3(2e-4, 0, 1e-4)) +
+                    cameraAt(point + glm::dvec3(0, 2e-4, 0), point + glm::dvec3(2e-4, 0, 1e-4)) +
                     " near=2e-5";
                 EXPECT_EQ(expectLit(degrees, 1, settings), 0);
             }

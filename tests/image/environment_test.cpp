@@ -211,10 +211,10 @@ double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dv
         const double last = static_cast<double>(maps.levels.size()) - 1;
         const double mip = std::clamp(0.5 * std::log2(1 / (count * density) / texel) + bias, 0.0, last);
         const auto lower = static_cast<std::size_t>(std::min(mip, last - 1));
-        const glm::vec2 place = octahedralPlace(glm::vec3(l));
+        const glm::vec2 point = octahedralPosition(glm::vec3(l));
         sum +=
-            glm::mix(double{maps.levels[lower].interpolated(place).x},
-                     double{maps.levels[lower + 1].interpolated(place).x}, mip - static_cast<double>(lower)) *
+            glm::mix(double{maps.levels[lower].interpolated(point).x},
+                     double{maps.levels[lower + 1].interpolated(point).x}, mip - static_cast<double>(lower)) *
             (1 + lambda(v.z)) / (1 + lambda(v.z) + lambda(l.z));
     }
     return sum / count;

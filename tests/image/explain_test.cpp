@@ -204,7 +204,7 @@ TEST(Explain, OfTheSameFrameHasNoCause) {
         explain(device(), injected.renderer, injected.scene, injected.right, injected.right);
     EXPECT_EQ(e.distance, 0);
     EXPECT_TRUE(e.causes.empty());
-    EXPECT_TRUE(std::ranges::all_of(e.dominant.data, [](float place) { return place < 0; }));
+    EXPECT_TRUE(std::ranges::all_of(e.dominant.data, [](float position) { return position < 0; }));
 }
 
 // Two faults that hide each other: one restores the light that the other removes.

@@ -302,10 +302,10 @@ TEST(KnownValues, GeometricNormalsFaceAnOrthographicViewer) {
     scene.cameras[0].ymag = 4;
     scene.cameras[0].far = 100;
     const double angle = 80 * std::numbers::pi / 180, sine = std::sin(angle), cosine = std::cos(angle);
-    glm::dmat4& place = scene.nodes[0].parent_from_node;
-    place[0] = {cosine, 0, -sine, 0};
-    place[2] = {sine, 0, cosine, 0};
-    place[3] = {2.5, 0, -2, 1};
+    glm::dmat4& transform = scene.nodes[0].parent_from_node;
+    transform[0] = {cosine, 0, -sine, 0};
+    transform[2] = {sine, 0, cosine, 0};
+    transform[3] = {2.5, 0, -2, 1};
     const auto frames = draw(scene, 64);
     for (const Frame& frame : frames) {
         const glm::vec3 normal = colorAt(frame, Channel::geometric_normal, 52, 32);

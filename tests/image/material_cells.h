@@ -102,19 +102,19 @@ struct CellDecode {
 CellDecode exactDecode();
 
 // The surface at a position in the image, in pixels from the upper left corner.
-struct CellPlace {
+struct CellPosition {
     int cell = -1;           // -1: beside the wall
     glm::dvec2 at{0};        // in the cell, from its upper left corner, 0 to 1
     glm::dvec3 position{0};  // from the camera
     double depth = 0;
 };
-CellPlace cellPlace(const std::vector<Cell>& cells, const CellCamera& camera, const glm::dvec2& pixel);
+CellPosition cellPosition(const std::vector<Cell>& cells, const CellCamera& camera, const glm::dvec2& pixel);
 
 // Column and row of the texel of the slot's texture there.
 glm::ivec2 texelAt(const Cell& cell, std::size_t slot, const glm::dvec2& at);
 
 // Values by channel (DEBUG_*), one per component of the channel; nothing in a hole of the cell.
-std::optional<std::map<Channel, std::vector<double>>> cellValues(const Cell& cell, const CellPlace& place,
+std::optional<std::map<Channel, std::vector<double>>> cellValues(const Cell& cell, const CellPosition& place,
                                                                  const CellDecode& decode);
 
 }  // namespace diptych::tests

@@ -68,7 +68,7 @@ unsigned slotsOf(Channel mode, const Cell& cell) {
 // The pixel's position on the wall, and a bit mask of the slots whose texture shows a single texel there.
 // Nothing at a cell's edge.
 struct EvaluatedPixel {
-    CellPlace place;
+    CellPosition place;
     unsigned slots = 0;
 
     bool shows(unsigned wanted) const { return (slots & wanted) == wanted; }
@@ -76,12 +76,12 @@ struct EvaluatedPixel {
 std::optional<EvaluatedPixel> evaluatedPixel(const std::vector<Cell>& cells, const CellCamera& camera, int x,
                                              int y) {
     const glm::dvec2 centre(x + 0.5, y + 0.5);
-    EvaluatedPixel pixel{cellPlace(cells, camera, centre), ~0u};
+    EvaluatedPixel pixel{cellPosition(cells, camera, centre), ~0u};
     if (pixel.place.cell < 0) return {};
     const Cell& cell = cells[static_cast<std::size_t>(pixel.place.cell)];
     for (const glm::dvec2 side :
          {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
-        const CellPlace near = cellPlace(cells, camera, centre + side * evaluatedMargin);
+        const CellPosition near = cellPosition(cells, camera, centre + side * evaluatedMargin);
         if (near.cell != pixel.place.cell) return {};
         for (std::size_t slot = 0; slot < cell.textures.size(); ++slot)
             if (cell.textures[slot].image >= 0 &&
@@ -129,10 +129,10 @@ constexpr double cornerGrid = 1.0 / 128;
 
 // Effect of that: on texture coordinates anywhere, on everything else if the wall is tilted.
 double movedBy(Channel mode, const std::vector<Cell>& cells, const CellCamera& camera, int x, int y) {
-    const CellPlace here = cellPlace(cells, camera, {x + 0.5, y + 0.5});
+    const CellPosition here = cellPosition(cells, camera, {x + 0.5, y + 0.5});
     double deeper = 0, aside = 0;
     for (const glm::dvec2 side : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
-        const CellPlace next = cellPlace(cells, camera, glm::dvec2(x + 0.5, y + 0.5) + side);
+        const CellPosition next = cellPosition(cells, camera, glm::dvec2(x + 0.5, y + 0.5) + side);
         deeper += std::abs(next.depth - here.depth);
         aside = std::max({aside, std::abs(next.position.x - here.position.x),
                           std::abs(next.position.y - here.position.y)});
@@ -165,7 +165,7 @@ void evaluate(CheckedValues& evaluated, const float* got, const std::vector<doub
     }
 }
 
-std::string placeName(const std::vector<Cell>& cells, const CellPlace& place, int x, int y) {
+std::string placeName(const std::vector<Cell>& cells, const CellPosition& place, int x, int y) {
     return fmt::format("\"{}\" at {}, {}", cells[static_cast<std::size_t>(place.cell)].name, x, y);
 }
 
@@ -189,7 +189,7 @@ std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamer
     const Cell& cell = cells[static_cast<std::size_t>(pixel.place.cell)];
     const auto alike = [&](const glm::ivec2& at) {
         if (at.x < 0 || at.y < 0 || at.x >= camera.size.x || at.y >= camera.size.y) return false;
-        const CellPlace place = cellPlace(cells, camera, glm::dvec2(at) + 0.5);
+        const CellPosition place = cellPosition(cells, camera, glm::dvec2(at) + 0.5);
         if (place.cell != pixel.place.cell) return false;
         for (std::size_t slot = 0; slot < cell.textures.size(); ++slot)
             if (texelAt(cell, slot, place.at) != texelAt(cell, slot, pixel.place.at)) return false;

@@ -101,7 +101,7 @@ CellDecode exactDecode() {
 }
 
 // A camera's field of view is the image's height, for any width.
-CellPlace cellPlace(const std::vector<Cell>& cells, const CellCamera& camera, const glm::dvec2& pixel) {
+CellPosition cellPosition(const std::vector<Cell>& cells, const CellCamera& camera, const glm::dvec2& pixel) {
     const glm::dvec2 size(camera.size);
     const glm::dvec2 screen = glm::dvec2(pixel.x - size.x / 2, size.y / 2 - pixel.y) / (size.y / 2);
     const glm::dmat3 axes = camera.axes();
@@ -110,7 +110,7 @@ CellPlace cellPlace(const std::vector<Cell>& cells, const CellCamera& camera, co
         origin += (axes[0] * screen.x + axes[1] * screen.y) * camera.half;
     else
         direction += (axes[0] * screen.x + axes[1] * screen.y) * (camera.half / camera.eye.z);
-    CellPlace place;
+    CellPosition place;
     place.depth = -origin.z / direction.z;  // directions have a depth of one metre
     const glm::dvec3 hit = origin + direction * place.depth;
     place.position = hit - camera.eye;
@@ -140,7 +140,7 @@ glm::ivec2 texelAt(const Cell& cell, std::size_t slot, const glm::dvec2& at) {
     return glm::min(glm::ivec2(texel), glm::ivec2(3));
 }
 
-std::optional<std::map<Channel, std::vector<double>>> cellValues(const Cell& cell, const CellPlace& place,
+std::optional<std::map<Channel, std::vector<double>>> cellValues(const Cell& cell, const CellPosition& place,
                                                                  const CellDecode& decode) {
     const auto texel = [&](std::size_t slot, bool srgb) {
         const int image = cell.textures[slot].image;

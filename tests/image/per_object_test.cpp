@@ -225,7 +225,7 @@ TEST(PerObject, WhatIsReflectedIsTheIrradianceOfTheLists) {
             settings.spot_cone = SpotFalloff::smoothstep;
             lights.falloff = {.squared_window = true, .smooth_cones = true};
         }
-        const ObjectPlace place{-view.eye(), glm::abs(right) + glm::abs(up)};
+        const ObjectPosition place{-view.eye(), glm::abs(right) + glm::abs(up)};
         const ObjectLightLists lists = objectLightLists(lights, std::span(&place, 1), pixels);
         const gpu::ObjectLights& object = lists.objects[0];
         ASSERT_EQ(object.begin == object.area_end, pixels == 0);

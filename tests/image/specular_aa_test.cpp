@@ -142,10 +142,11 @@ TEST(SpecularAa, OfASphereAtAKnownDistance) {
 TEST(SpecularAa, AFlatSurfaceKeepsItsRoughnessBitForBit) {
     for (const double degrees : {0.0, 37.0, 80.0, 89.9}) {
         Scene scene = square();
-        glm::dmat4& place = scene.nodes[0].parent_from_node;
-        place = glm::translate(glm::dmat4(1), glm::dvec3(0, -0.3, -0.5)) *
-                glm::rotate(glm::dmat4(1), glm::radians(-degrees), glm::normalize(glm::dvec3(1, 0.3, 0.1))) *
-                glm::scale(glm::dmat4(1), glm::dvec3(1000));
+        glm::dmat4& transform = scene.nodes[0].parent_from_node;
+        transform =
+            glm::translate(glm::dmat4(1), glm::dvec3(0, -0.3, -0.5)) *
+            glm::rotate(glm::dmat4(1), glm::radians(-degrees), glm::normalize(glm::dvec3(1, 0.3, 0.1))) *
+            glm::scale(glm::dmat4(1), glm::dvec3(1000));
         for (const float rough : {0.0f, 0.01f, 0.045f, 0.3333333f, 1.0f}) {
             scene.materials[0].roughness = rough;
             Settings settings = filtered(fullImage({161, 91}));

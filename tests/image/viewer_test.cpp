@@ -132,7 +132,7 @@ TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
 TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
     DrawingThread drawing(validated());
     Order order = orderOf("builtin:points");
-    order.pixel = PixelPlace{30, 20};
+    order.pixel = PixelPosition{30, 20};
     ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
     const auto breakdown = drawing.breakdown();
     ASSERT_TRUE(breakdown);

@@ -302,8 +302,8 @@ TEST(DrawList, TrianglesNeverComeNearerBeforeFarther) {
         for (std::uint32_t i = run.run.first; i < run.run.first + run.run.count; i += 3) {
             double depth = 0;
             for (std::uint32_t c = 0; c < 3; ++c) {
-                const glm::dvec4 place(glm::dvec3(p.positions[list.sorted_indices[i + c]]), 1);
-                depth -= glm::dot(view.backward(), glm::dvec3(transform * place) - view.eye()) / 3;
+                const glm::dvec4 position(glm::dvec3(p.positions[list.sorted_indices[i + c]]), 1);
+                depth -= glm::dot(view.backward(), glm::dvec3(transform * position) - view.eye()) / 3;
             }
             EXPECT_LE(depth, last + 1e-12);
             last = depth;

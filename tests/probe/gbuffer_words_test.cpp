@@ -104,11 +104,11 @@ Table tableOf(const fs::path& header, int lowered = -1) {
     Table table;
     const std::regex field("([A-Z][A-Z0-9_]+), ([0-9]+)");
     for (std::string line; std::getline(lines, line); changed += line + "\n") {
-        int place = 0;
+        int slot = 0;
         std::string copy = line;
-        for (std::sregex_iterator i(copy.begin(), copy.end(), field), none; i != none; ++i, ++place) {
+        for (std::sregex_iterator i(copy.begin(), copy.end(), field), none; i != none; ++i, ++slot) {
             unsigned bits = static_cast<unsigned>(std::stoul((*i)[2]));
-            if (place % 2 == lowered && bits > 1) {
+            if (slot % 2 == lowered && bits > 1) {
                 table.lowered.insert((*i)[1]);
                 line.replace(line.find((*i)[0]), (*i)[0].length(),
                              fmt::format("{}, {}", (*i)[1].str(), --bits));

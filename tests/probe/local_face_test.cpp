@@ -52,9 +52,9 @@ struct Received {
 // `places`: positions, relative to the light, and normals.
 std::vector<Received> received(const Cube& cube, const std::vector<std::pair<glm::vec3, glm::vec3>>& places) {
     std::vector<float> in;
-    for (const auto& [place, normal] : places) {
-        for (const glm::vec3& v :
-             {place, normal, glm::vec3(cube.texels[0]), glm::vec3(cube.texels[1]), glm::vec3(cube.texels[2])})
+    for (const auto& [position, normal] : places) {
+        for (const glm::vec3& v : {position, normal, glm::vec3(cube.texels[0]), glm::vec3(cube.texels[1]),
+                                   glm::vec3(cube.texels[2])})
             in.insert(in.end(), {v.x, v.y, v.z});
         in.insert(in.end(), {cube.texels[0].w, cube.texels[1].w, cube.texels[2].w});
         for (std::size_t face = 0; face < 6; ++face) {
@@ -106,15 +106,15 @@ std::vector<std::pair<glm::vec3, glm::vec3>> pairsOf(const Cube& cube, int count
     std::vector<std::pair<glm::vec3, glm::vec3>> places;
     for (int i = 0; i < count; ++i) {
         const int face = i % 6, axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
-        glm::vec3 place(0), apart(0);
-        place[axis] = face % 2 == 0 ? 1.0f : -1.0f;
-        place[a] = inside ? 0.9f * any(random) : any(random) < 0 ? -1.0f : 1.0f;
-        place[b] = inside || i % 4 != 0 ? 0.9f * any(random) : any(random) < 0 ? -1.0f : 1.0f;
+        glm::vec3 position(0), apart(0);
+        position[axis] = face % 2 == 0 ? 1.0f : -1.0f;
+        position[a] = inside ? 0.9f * any(random) : any(random) < 0 ? -1.0f : 1.0f;
+        position[b] = inside || i % 4 != 0 ? 0.9f * any(random) : any(random) < 0 ? -1.0f : 1.0f;
         apart[a] = step;
         if (i % 4 == 0) apart[b] = step * any(random);
         const float size = 0.5f + std::abs(any(random));
         for (const float side : {-1.0f, 1.0f}) {
-            const glm::vec3 at = size * (place + side * apart);
+            const glm::vec3 at = size * (position + side * apart);
             places.emplace_back(at, -glm::normalize(at));
         }
     }

@@ -44,7 +44,7 @@ inline GpuLights fromEye(const std::vector<Light>& lights, const LightFalloff& f
 // Every choice of --range-window and --spot-cone.
 inline constexpr LightFalloff falloffs[] = {{false, false}, {false, true}, {true, false}, {true, true}};
 
-inline const ObjectPlace unitBox{{0, 0, 0}, {0.5, 0.5, 0.5}};
+inline const ObjectPosition unitBox{{0, 0, 0}, {0.5, 0.5, 0.5}};
 
 // Irradiance at normal `n` from an object's spherical harmonics: all colours, and green alone.
 inline glm::dvec3 evaluatedRgb(const gpu::ObjectIrradiance& e, const glm::dvec3& n) {

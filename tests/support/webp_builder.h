@@ -82,10 +82,10 @@ inline std::string webpHeader(int flags, int width, int height) {
 // One frame of an animation, from a simple lossless file.
 inline std::string animatedWebp(const WebpPixels& of) {
     const std::string frame = losslessWebp(of).substr(12);
-    const std::string place = webpNumber(0, 6) + webpNumber(static_cast<std::size_t>(of.width) - 1, 3) +
-                              webpNumber(static_cast<std::size_t>(of.height) - 1, 3) + webpNumber(100, 4);
+    const std::string location = webpNumber(0, 6) + webpNumber(static_cast<std::size_t>(of.width) - 1, 3) +
+                                 webpNumber(static_cast<std::size_t>(of.height) - 1, 3) + webpNumber(100, 4);
     return webpFile(webpHeader(2, of.width, of.height) + webpChunk("ANIM", webpNumber(0, 6)) +
-                    webpChunk("ANMF", place + frame));
+                    webpChunk("ANMF", location + frame));
 }
 
 }  // namespace diptych

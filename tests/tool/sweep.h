@@ -16,13 +16,13 @@ using Json = nlohmann::json;
 
 // JSON paths of empty strings, such as "/device/name" and "/rows/*/words". Skips `settings` and `origin`,
 // where an empty string means the default.
-inline std::set<std::string> emptyIn(const Json& json, const std::string& place = "") {
+inline std::set<std::string> emptyIn(const Json& json, const std::string& location = "") {
     std::set<std::string> found;
-    if (json == "") found.insert(place);
+    if (json == "") found.insert(location);
     if (json.is_structured())
         for (const auto& [key, value] : json.items())
             if (key != "settings" && key != "origin")
-                found.merge(emptyIn(value, place + "/" + (json.is_array() ? "*" : key)));
+                found.merge(emptyIn(value, location + "/" + (json.is_array() ? "*" : key)));
     return found;
 }
 

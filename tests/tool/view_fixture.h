@@ -110,7 +110,7 @@ protected:
         size.height = 180;
         const double line = canvas.x + view.wipe * canvas.width;
         int count = 0, seen = 0;
-        for (const viewer::PanelPlace& place : viewer::placesOf(canvas, size, view, difference)) {
+        for (const viewer::PanelRect& place : viewer::placesOf(canvas, size, view, difference)) {
             if (place.panel != panel) continue;
             for (int y = 0; y < size.height; ++y)
                 for (int x = 0; x < size.width; ++x) {

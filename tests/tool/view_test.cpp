@@ -118,7 +118,7 @@ TEST_F(View, APixelsValuesAreThoseOfTheExr) {
     Size size;
     size.width = 320;
     size.height = 180;
-    const viewer::PanelPlace place = viewer::placesOf(canvas, size, wipe(), false).front();
+    const viewer::PanelRect place = viewer::placesOf(canvas, size, wipe(), false).front();
     ASSERT_EQ(runTool(folder_, "render builtin:spots --size 320x180 --runs 0 --path deferred -o d.exr").code,
               0);
     ASSERT_EQ(

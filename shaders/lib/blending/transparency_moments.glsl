@@ -27,7 +27,7 @@ float transmittanceBefore(const ivec2 p, const float z) {
     float total = texelFetch(blended_depths, p, 0).r;
     vec4 b = texelFetch(blended_moments, p, 0) / max(total, 1e-30);
     b = b * (1.0 - BIAS) + vec4(0.0, 0.375, 0.0, 0.375) * BIAS;
-    ThreePlaces places = threePlaces(b, momentDepth(z), 1e-9);
+    ThreeDepths places = threeDepths(b, momentDepth(z), 1e-9);
     float fraction = fractionOf(fractionOf(places.before) + OF_THOSE_AT * fractionOf(places.at));
     // The limit keeps float32 above 0: many opaque layers at one depth would otherwise all weigh 0.
     return exp(-min(total * fraction, 60.0));

@@ -12,7 +12,7 @@
 layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT_MAPS) uniform sampler2D environment_maps;
 
 // Coordinates of a direction in an octahedral map, in [-1, 1]^2; +Y is in the centre.
-vec2 octahedralPlace(const vec3 d) {
+vec2 octahedralPosition(const vec3 d) {
     vec2 p = d.xz * (1.0 / (abs(d.x) + abs(d.y) + abs(d.z)));
     if (d.y < 0.0) p = octahedralWrap(p);
     return p;
@@ -22,11 +22,11 @@ vec3 mapTexel(const ivec2 p) { return texelFetch(environment_maps, p, 0).rgb; }
 
 // `map`: corner of the map's nodes, and nodes per side. Interpolates linearly over the two triangles of a
 // cell, split along the diagonal where the map folds (shared/environment/octahedral_map.h).
-vec3 mapRadiance(const vec3 map, const vec2 place) {
-    vec2 at = (place * 0.5 + 0.5) * (map.z - 1.0);
+vec3 mapRadiance(const vec3 map, const vec2 position) {
+    vec2 at = (position * 0.5 + 0.5) * (map.z - 1.0);
     vec2 corner = clamp(floor(at), vec2(0.0), vec2(map.z - 2.0)), f = at - corner;
     ivec2 c = ivec2(map.xy + corner);
-    bool rising = place.x * place.y >= 0.0;  // the fold runs from the cell's right to its bottom
+    bool rising = position.x * position.y >= 0.0;  // the fold runs from the cell's right to its bottom
     f.y = rising ? f.y : 1.0 - f.y;          // else mirror the cell
     int first = rising ? 0 : 1;
     float beyond = f.x + f.y - 1.0;
@@ -37,13 +37,13 @@ vec3 mapRadiance(const vec3 map, const vec2 place) {
 }
 
 // Interpolates between two levels; clamps at the first and the last.
-vec3 levelRadiance(float level, const vec2 place) {
+vec3 levelRadiance(float level, const vec2 position) {
     float levels = environmentTurn().w;
     level = clamp(level, 0.0, levels - 1.0);
     float lower = min(floor(level), levels - 2.0);
     int first = int(ENVIRONMENT_TEXEL_LEVELS) + int(lower);
-    vec3 fine = mapRadiance(texelFetch(environment_texels, first).xyz, place);
-    vec3 coarse = mapRadiance(texelFetch(environment_texels, first + 1).xyz, place);
+    vec3 fine = mapRadiance(texelFetch(environment_texels, first).xyz, position);
+    vec3 coarse = mapRadiance(texelFetch(environment_texels, first + 1).xyz, position);
     return blend(fine, coarse, level - lower);
 }
 
@@ -62,7 +62,7 @@ vec4 harmonic(const int i) { return texelFetch(environment_texels, int(ENVIRONME
 vec3 environmentIrradiance(const vec3 n) {
     if (on(feature_environment & ENVIRONMENT_DIFFUSE_MAP))
         return mapRadiance(texelFetch(environment_texels, int(ENVIRONMENT_TEXEL_DIFFUSE)).xyz,
-                           octahedralPlace(environmentFromWorld(n)));
+                           octahedralPosition(environmentFromWorld(n)));
     vec4 one = harmonic(0), y = harmonic(1), z = harmonic(2), x = harmonic(3);
     vec4 xy = harmonic(4), yz = harmonic(5);
     vec3 e = one.rgb + y.rgb * n.y + z.rgb * n.z + x.rgb * n.x;
@@ -119,7 +119,7 @@ vec3 sampledSpecular(const Brdf b, const vec3 n, const vec3 v) {
         float level = 0.5 * log2(first.z * first.z / (4.0 * count * density * l1 * l1 * l1)) + bias;
         float masking = (1.0 + lambda_v) / (1.0 + lambda_v + smithLambda(b, vec3(l.xy, max(l.z, 1e-6))));
         vec3 fresnel = layeredAt(b, v_dot_h).lobe;
-        vec3 radiance = levelRadiance(level, octahedralPlace(d)) * fresnel * masking;
+        vec3 radiance = levelRadiance(level, octahedralPosition(d)) * fresnel * masking;
         sum += l.z > 0.0 ? radiance : vec3(0.0);
     }
     return sum / count;
@@ -144,7 +144,8 @@ vec3 lobeEnvironment(const Reflector r, const float strength, const float factor
         from_lobe = sampledSpecular(r.brdf, r.n, r.v) * factor;
     else
         from_lobe =
-            r.lobe_fraction * levelRadiance(specularLevel(r.brdf.alpha), octahedralPlace(mirrored)) * factor;
+            r.lobe_fraction * levelRadiance(specularLevel(r.brdf.alpha), octahedralPosition(mirrored)) *
+            factor;
     return from_lobe;
 }
 

@@ -12,7 +12,7 @@
 struct CulledImage {
     vec2 half_size;   // pixels
     uint samples;     // per pixel
-    float place_off;  // pixels
+    float position_error;  // pixels
     float snap;       // pixels
 };
 
@@ -36,9 +36,9 @@ bool isBeyondView(const CulledItem item, const vec3 low, const vec3 high) {
 }
 
 // Location of sample i from the pixel's upper left corner, pixels.
-vec2 culledSamplePlace(const uint samples, const uint i) {
-    uint low = samples == 4u ? SAMPLE_PLACES_4 : SAMPLE_PLACES_8_LOW;
-    uint place = (i < 4u ? low : SAMPLE_PLACES_8_HIGH) >> (8u * (i & 3u));
+vec2 culledSampleLocation(const uint samples, const uint i) {
+    uint low = samples == 4u ? SAMPLE_LOCATIONS_4 : SAMPLE_LOCATIONS_8_LOW;
+    uint place = (i < 4u ? low : SAMPLE_LOCATIONS_8_HIGH) >> (8u * (i & 3u));
     return samples == 1u ? vec2(0.5) : vec2(place & 15u, place >> 4 & 15u) / 16.0;
 }
 
@@ -87,7 +87,7 @@ PixelTriangle inPixels(const CulledItem item, const CulledImage image, const Cli
     PixelTriangle c;
     float nearest = min(t.w.x, min(t.w.y, t.w.z)) - item.error.w;
     vec2 far = image.half_size * slackOf(item).xy / nearest;
-    float off = image.snap + image.place_off + max(far.x, far.y);
+    float off = image.snap + image.position_error + max(far.x, far.y);
     c.wide = 1.4143 * off;
     vec3 across = t.x / t.w * image.half_size.x + image.half_size.x,
          down = t.y / t.w * image.half_size.y + image.half_size.y;
@@ -118,7 +118,7 @@ bool coversSample(const PixelTriangle t, const uint samples) {
     bool covers = false;
     uint sample_number = 0u;
     do {
-        vec2 place = culledSamplePlace(samples, sample_number);
+        vec2 place = culledSampleLocation(samples, sample_number);
         vec2 at = ceil(t.low - place);
         vec2 count = max(floor(t.high - place) - at + 1.0, vec2(0.0));
         bool large = count.x * count.y > float(few);

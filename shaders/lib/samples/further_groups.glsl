@@ -17,7 +17,7 @@ FURTHER_ACCESS uniform uimage2D further_count;
 layout(set = SET_GBUFFER, binding = BINDING_FURTHER_LIST, r32ui)
 FURTHER_ACCESS uniform uimage2D further_list;
 
-ivec2 placeInList(const uint entry) {
+ivec2 indexInList(const uint entry) {
     return ivec2(entry & (FURTHER_WIDTH - 1u), entry >> FURTHER_WIDTH_BITS);
 }
 

@@ -11,10 +11,10 @@
 bool multisampled() { return feature_samples > 1; }
 
 // Location of sample i from the pixel's upper left corner, pixels.
-vec2 samplePlace(const uint i) {
-    uint low = feature_samples == 4 ? SAMPLE_PLACES_4 : SAMPLE_PLACES_8_LOW;
-    uint place = (i < 4 ? low : SAMPLE_PLACES_8_HIGH) >> (8 * (i & 3u));
-    return vec2(place & 15u, place >> 4 & 15u) / 16.0;
+vec2 sampleLocation(const uint i) {
+    uint low = feature_samples == 4 ? SAMPLE_LOCATIONS_4 : SAMPLE_LOCATIONS_8_LOW;
+    uint index = (i < 4 ? low : SAMPLE_LOCATIONS_8_HIGH) >> (8 * (i & 3u));
+    return vec2(index & 15u, index >> 4 & 15u) / 16.0;
 }
 
 // Mean location of the samples of a mask; the pixel's centre if it is empty.
@@ -22,7 +22,7 @@ vec2 placeOf(const uint mask) {
     vec2 sum = vec2(0.0);
     uint i = 0;
     do {
-        sum += (mask >> i & 1u) != 0 ? samplePlace(i) : vec2(0.0);
+        sum += (mask >> i & 1u) != 0 ? sampleLocation(i) : vec2(0.0);
     } while (++i < feature_samples);
     return mask != 0 ? sum / float(bitCount(mask)) : vec2(0.5);
 }
@@ -33,7 +33,7 @@ uvec2 shadedTexel(const uint covered, const uint left, const float z) {
     return uvec2(floatBitsToUint(z), covered | left << MAX_SAMPLES);
 }
 float depthOfShaded(const uvec2 texel) { return uintBitsToFloat(texel.x); }
-vec2 placeOfShaded(const uvec2 texel) { return placeOf(texel.y & ((1u << MAX_SAMPLES) - 1u)); }
+vec2 locationOfShaded(const uvec2 texel) { return placeOf(texel.y & ((1u << MAX_SAMPLES) - 1u)); }
 uint leftOfShaded(const uvec2 texel) { return texel.y >> MAX_SAMPLES; }
 
 // Samples that a mask's alpha, 0 to 1, covers: the nearest count, so coverage is off by at most half a

@@ -47,9 +47,9 @@ bool alikeLayers(const Surface s, const Surface t) {
 // a, b: texels of two samples of pixel p.
 bool areSimilar(const ivec2 p, const GBufferTexel a, const GBufferTexel b) {
     uvec2 at = a.attachments[GBUFFER_SHADED].xy, bt = b.attachments[GBUFFER_SHADED].xy;
-    Surface s = decodeGBuffer(a, positionFromDepth(vec2(p) + placeOfShaded(at), depthOfShaded(at)));
-    vec3 facing = positionFromDepth(vec2(p) + placeOfShaded(bt), depthOfShaded(at)) - s.position;
-    Surface t = decodeGBuffer(b, positionFromDepth(vec2(p) + placeOfShaded(bt), depthOfShaded(bt)));
+    Surface s = decodeGBuffer(a, positionFromDepth(vec2(p) + locationOfShaded(at), depthOfShaded(at)));
+    vec3 facing = positionFromDepth(vec2(p) + locationOfShaded(bt), depthOfShaded(at)) - s.position;
+    Surface t = decodeGBuffer(b, positionFromDepth(vec2(p) + locationOfShaded(bt), depthOfShaded(bt)));
     vec3 between = t.position - s.position, turned = s.normal - t.normal;
     float rough = min(s.roughness, t.roughness);
     float turn = SIMILAR_NORMAL * rough * rough;

@@ -20,9 +20,9 @@ vec4 cubicWeights(const float t) {
 // Index of the first of the four samples around x in [0, 1]. `t` is the position of x from there, in
 // samples.
 uint cubicFirst(const float x, const uint count, out float t) {
-    float place = clamp(x, 0.0, 1.0) * float(count - 1u);
-    uint first = uint(clamp(int(place) - 1, 0, int(count) - 4));
-    t = place - float(first);
+    float position = clamp(x, 0.0, 1.0) * float(count - 1u);
+    uint first = uint(clamp(int(position) - 1, 0, int(count) - 4));
+    t = position - float(first);
     return first;
 }
 

@@ -99,9 +99,9 @@ void addSpot(const Shading shading, const uint i, inout Radiance radiance) {
                 radiance);
 }
 
-void addCasting(const Shading shading, Incident light, const uint place, const vec3 position,
+void addCasting(const Shading shading, Incident light, const uint index, const vec3 position,
                 inout Radiance radiance) {
-    float seen = visibilityOf(shading.surface, place, position);
+    float seen = visibilityOf(shading.surface, index, position);
     float light_here = dot(light.irradiance, vec3(0.2126, 0.7152, 0.0722));
     radiance.local_light += light_here;
     radiance.local_seen += light_here * seen;

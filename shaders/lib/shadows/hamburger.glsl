@@ -6,7 +6,7 @@
 
 const float MIN_DIVISOR = 1e-20;
 
-struct ThreePlaces {
+struct ThreeDepths {
     vec2 other;    // the two other points, other.x <= other.y
     float before;  // weight of the points before the given one
     float at;      // weight of the given one
@@ -14,7 +14,7 @@ struct ThreePlaces {
 
 // `b`: means of d, d^2, d^3, d^4; their Hankel matrix must not be near singular. `min_variance`:
 // smallest variance of d.
-ThreePlaces threePlaces(const vec4 b, const float depth, const float min_variance) {
+ThreeDepths threeDepths(const vec4 b, const float depth, const float min_variance) {
     // The Hankel matrix of (1, b) is L D L^T.
     float l32_d22 = b.z - b.x * b.y;
     float d22 = max(b.y - b.x * b.x, min_variance);
@@ -36,7 +36,7 @@ ThreePlaces threePlaces(const vec4 b, const float depth, const float min_varianc
         before = 1.0 - at;
     else if (z.x < depth)
         before = (depth * z.y - b.x * (depth + z.y) + b.y) / ((z.y - z.x) * (depth - z.x));
-    return ThreePlaces(z, before, at);
+    return ThreeDepths(z, before, at);
 }
 
 #endif

@@ -31,7 +31,7 @@ vec4 momentsOfQuantised(const vec4 q) {
 // their rounding, towards a distribution whose Hankel matrix is far from singular. The result is in [0, 1]
 // for any moments.
 float min4MomentShadow(const vec4 moments, const float depth, const float bias) {
-    return fractionOf(threePlaces(moments * (1.0 - bias) + vec4(0.5 * bias), depth, 1e-9).before);
+    return fractionOf(threeDepths(moments * (1.0 - bias) + vec4(0.5 * bias), depth, 1e-9).before);
 }
 
 // Visibility of a receiver at `depth` (as in the map), from the moments of feature_shadows.

@@ -46,15 +46,15 @@ uint layerBits(const ivec2 p, const int i) {
 // Surface of a sample; z is the reversed depth at which it is shaded.
 Surface surfaceFromGBuffer(const ivec2 p, const int i, out float z) {
     GBufferTexel t = texelOfGBuffer(p, i);
-    vec2 place = vec2(0.5);
+    vec2 position = vec2(0.5);
     if (multisampled()) {
         uvec2 shaded = t.attachments[GBUFFER_SHADED].xy;
         z = depthOfShaded(shaded);
-        place = placeOfShaded(shaded);
+        position = locationOfShaded(shaded);
     } else {
         z = depthAt(p);
     }
-    return decodeGBuffer(t, positionFromDepth(vec2(p) + place, z));
+    return decodeGBuffer(t, positionFromDepth(vec2(p) + position, z));
 }
 
 #endif

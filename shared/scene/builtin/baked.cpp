@@ -24,10 +24,10 @@ struct Ball {
 // Irradiance / pi at a point under a sky of radiance 1 with black balls. Each ball blocks its
 // configuration factor, (r / d)^2 cos (Howell, Menguec and Siegel 2010); it must be wholly above the
 // horizon of the point.
-double skyLight(const glm::dvec3& place, const glm::dvec3& normal, std::span<const Ball> balls) {
+double skyLight(const glm::dvec3& position, const glm::dvec3& normal, std::span<const Ball> balls) {
     double fraction = 1;
     for (const Ball& ball : balls) {
-        const glm::dvec3 way = ball.centre - place;
+        const glm::dvec3 way = ball.centre - position;
         const double distance = std::sqrt(glm::dot(way, way));
         fraction -= ball.radius * ball.radius / (distance * distance) *
                     std::max(glm::dot(way, normal) / distance, 0.0);
@@ -85,20 +85,20 @@ void lightmaps(Builder& b) {
     const int floor = lit("floor", {glm::vec3(0.6f), 0, 0.5f},
                           floats("floor light", 128,
                                  [&](double u, double v) {
-                                     const glm::dvec3 place(-4 + 8 * (1 - v), 0, -2 + 5 * u);
-                                     const double near = std::max(0.0, 1 - (place.z + 2) / 0.5);
-                                     return sky * skyLight(place, {0, 1, 0}, balls) + glow * near * near;
+                                     const glm::dvec3 position(-4 + 8 * (1 - v), 0, -2 + 5 * u);
+                                     const double near = std::max(0.0, 1 - (position.z + 2) / 0.5);
+                                     return sky * skyLight(position, {0, 1, 0}, balls) + glow * near * near;
                                  }),
                           1);
     b.add("floor", withTurnedSet(quad({-4, 0, 3}, {8, 0, 0}, {0, 0, -5})), floor);
-    const int wall =
-        lit("wall", {{0.7f, 0.6f, 0.5f}, 0, 0.8f},
-            floats("wall light", 64,
-                   [&](double u, double v) {
-                       const glm::dvec3 place(-4 + 8 * (1 - v), 3 * (1 - u), -2);
-                       return sky * 0.5 * skyLight(place, {0, 0, 1}, balls) + glow * 1e-3 * (3 - place.y);
-                   }),
-            1);
+    const int wall = lit(
+        "wall", {{0.7f, 0.6f, 0.5f}, 0, 0.8f},
+        floats("wall light", 64,
+               [&](double u, double v) {
+                   const glm::dvec3 position(-4 + 8 * (1 - v), 3 * (1 - u), -2);
+                   return sky * 0.5 * skyLight(position, {0, 0, 1}, balls) + glow * 1e-3 * (3 - position.y);
+               }),
+        1);
     b.add("wall", withTurnedSet(quad({-4, 0, -2}, {8, 0, 0}, {0, 3, 0})), wall);
 
     for (const Ball& ball : balls) {

@@ -133,15 +133,15 @@ void ortho(Builder& b) {
     const int stone = relief(b, "stone", {0.6f, 0.55f, 0.5f}, 1);
     b.add("floor", quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 4, 4), stone);
     for (int i = 0; i < 9; ++i) {
-        const glm::dvec3 place(1.3 * (i % 3 - 1), 0.4, 1.3 * (i / 3 - 1));
+        const glm::dvec3 position(1.3 * (i % 3 - 1), 0.4, 1.3 * (i / 3 - 1));
         const int material =
             b.material(fmt::format("item {}", i), {{0.3f + 0.06f * static_cast<float>(i), 0.4f, 0.7f},
                                                    i % 3 == 1 ? 0.0f : static_cast<float>(i % 2),
                                                    0.1f + 0.1f * static_cast<float>(i)});
         if (i % 3 == 1)
-            b.add("box", box({0.8, 0.8, 0.8}, 0.06), material, place);
+            b.add("box", box({0.8, 0.8, 0.8}, 0.06), material, position);
         else
-            b.add("ball", sphere(0.4), material, place);
+            b.add("ball", sphere(0.4), material, position);
     }
     b.sun({-0.3, -1, -0.6}, {1.0f, 0.95f, 0.9f}, 2);
     b.point({1, 1.5, 1.5}, {1.0f, 0.6f, 0.3f}, 4, 4);

@@ -23,8 +23,8 @@ constexpr std::array<std::string_view, 14> collectionNames{
 
 // A value that is not an array counts as empty; the schema reports it.
 std::size_t sizeIn(const Json& document, std::string_view name) {
-    const std::string place(name);
-    return arrayAt(document, name == lightCollection ? "/extensions/" + place + "/lights" : "/" + place)
+    const std::string location(name);
+    return arrayAt(document, name == lightCollection ? "/extensions/" + location + "/lights" : "/" + location)
         .size();
 }
 

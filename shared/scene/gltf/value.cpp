@@ -18,9 +18,9 @@ const Json* memberOf(const Json& value, std::string_view key) {
     return at == value.end() ? nullptr : &*at;
 }
 
-const Json& arrayAt(const Json& document, const std::string& place) {
+const Json& arrayAt(const Json& document, const std::string& location) {
     static const Json none = Json::array();
-    const Json::json_pointer pointer(place);
+    const Json::json_pointer pointer(location);
     return document.contains(pointer) && document[pointer].is_array() ? document[pointer] : none;
 }
 

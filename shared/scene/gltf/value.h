@@ -21,7 +21,7 @@ namespace diptych::gltf {
 const nlohmann::json* memberOf(const nlohmann::json& value, std::string_view key);
 
 // The array at a JSON pointer; empty if there is none.
-const nlohmann::json& arrayAt(const nlohmann::json& document, const std::string& place);
+const nlohmann::json& arrayAt(const nlohmann::json& document, const std::string& location);
 
 // Element `index` of an array; null if it is absent.
 const nlohmann::json& elementOf(const nlohmann::json& array, std::size_t index);

@@ -143,18 +143,18 @@ Light makeLight(Stream stream, std::uint32_t key, std::uint32_t index, const Box
     const auto u = [own](std::uint32_t k) { return u01(own + k); };
 
     constexpr double G = 1.2207440846057596;  // g^4 = g + 1
-    glm::dvec3 place;
+    glm::dvec3 location;
     double power = 1;
     for (int axis : {0, 1, 2}) {
         power *= G;
-        place[axis] = frac(u01(key + static_cast<std::uint32_t>(axis) + 1) + (index + 1.0) / power);
+        location[axis] = frac(u01(key + static_cast<std::uint32_t>(axis) + 1) + (index + 1.0) / power);
     }
-    if (stream != Stream::point) place.y = 0.5 + 0.5 * place.y;
+    if (stream != Stream::point) location.y = 0.5 + 0.5 * location.y;
 
     const glm::dvec3 color = pastel(u(0));
     Light light;
     light.name = fmt::format("{} {}", STREAM_NAMES[static_cast<std::size_t>(stream)], index);
-    light.position = box.min + box.size * place;
+    light.position = box.min + box.size * location;
     light.color = glm::vec3(color);
     light.intensity = static_cast<float>(CANDELA_PER_RANGE_SQUARED * range * range / luminance(color));
     light.range = static_cast<float>(range);

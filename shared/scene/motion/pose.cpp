@@ -90,10 +90,10 @@ bool isWithin(const glm::dmat4& worldFromObject) {
     return isWithin(worldFromObject, glm::dvec3(0));
 }
 
-bool hasPlace(const Light& light, const std::vector<glm::dmat4>& world) {
+bool hasPosition(const Light& light, const std::vector<glm::dmat4>& world) {
     return light.node < 0 || isWithin(world[static_cast<std::size_t>(light.node)], glm::abs(light.position));
 }
-bool hasPlace(const Camera& camera, const std::vector<glm::dmat4>& world) {
+bool hasPosition(const Camera& camera, const std::vector<glm::dmat4>& world) {
     return camera.node < 0 || isWithin(world[static_cast<std::size_t>(camera.node)]);
 }
 
@@ -151,12 +151,12 @@ public:
         if (const auto moved = motion_.weights.find(index); moved != motion_.weights.end())
             return add(std::move(moved->second));
         if (node.weights >= 0) return addCopy(scene_.weights[static_cast<std::size_t>(node.weights)]);
-        int& place = place_of_mesh_[static_cast<std::size_t>(node.mesh)];
-        if (place != unknown) return place;
+        int& slot = place_of_mesh_[static_cast<std::size_t>(node.mesh)];
+        if (slot != unknown) return slot;
         const auto moved = motion_.mesh_weights.find(node.mesh);
-        return place = moved != motion_.mesh_weights.end()
-                           ? add(std::move(moved->second))
-                           : addCopy(scene_.meshes[static_cast<std::size_t>(node.mesh)].weights);
+        return slot = moved != motion_.mesh_weights.end()
+                          ? add(std::move(moved->second))
+                          : addCopy(scene_.meshes[static_cast<std::size_t>(node.mesh)].weights);
     }
 
 private:
@@ -262,11 +262,11 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
         vertices += primitiveOf(scene, instance).positions.size();
     }
     for (const Light& light : properties.lights)
-        if (hasPlace(light, world)) pose.lights.push_back(inWorld(light, world));
+        if (hasPosition(light, world)) pose.lights.push_back(inWorld(light, world));
     std::stable_partition(pose.lights.begin(), pose.lights.end(),
                           [](const Light& light) { return light.kind == LightKind::directional; });
     for (Camera camera : properties.cameras) {
-        if (!hasPlace(camera, world)) continue;
+        if (!hasPosition(camera, world)) continue;
         if (camera.node >= 0) camera.world_from_camera = world[static_cast<std::size_t>(camera.node)];
         camera.node = -1;
         pose.cameras.push_back(camera);
@@ -329,8 +329,9 @@ void leaveOutWhatIsBeyond(Scene& scene) {
     note(copiesBeyond, "instance");
     if (beyond + copiesBeyond > 0 && !hasTriangles(scene))
         throw std::runtime_error("nothing is left to draw: " + scene.notes.back());
-    note(std::erase_if(scene.lights, [&](const Light& light) { return !hasPlace(light, world); }), "light");
-    note(std::erase_if(scene.cameras, [&](const Camera& camera) { return !hasPlace(camera, world); }),
+    note(std::erase_if(scene.lights, [&](const Light& light) { return !hasPosition(light, world); }),
+         "light");
+    note(std::erase_if(scene.cameras, [&](const Camera& camera) { return !hasPosition(camera, world); }),
          "camera");
 }
 

@@ -14,7 +14,7 @@ void main() {
     if (PROBE_ROW >= probe_rows) return;
     LocalShadow light = LocalShadow(IN3(WIDTH, 6), IN(WIDTH, 15), IN3(WIDTH, 9), IN(WIDTH, 16),
                                     IN3(WIDTH, 12), IN(WIDTH, 17));
-    vec3 place = IN3(WIDTH, 0), p = inLight(light, place);
+    vec3 position = IN3(WIDTH, 0), p = inLight(light, position);
     uint face = faceOf(p), at = 18u + 4u * face;
     LocalFace tile =
         LocalFace(vec2(IN(WIDTH, at), IN(WIDTH, at + 1u)), IN(WIDTH, at + 2u), IN(WIDTH, at + 3u));

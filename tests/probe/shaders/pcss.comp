@@ -16,12 +16,12 @@ float storedAt(const vec2 texel) {
     float beside = dot(offset, vec2(IN(WIDTH, 7), IN(WIDTH, 8)));
     return beside > IN(WIDTH, 9) ? IN(WIDTH, 10) : beside < -IN(WIDTH, 11) ? IN(WIDTH, 12) : 0.0;
 }
-vec4 storedAround(const vec3 place) {
-    vec2 corner = round(place.xy * float(MAP_SIZE)) - 1.0;
+vec4 storedAround(const vec3 point) {
+    vec2 corner = round(point.xy * float(MAP_SIZE)) - 1.0;
     return vec4(storedAt(corner + vec2(0.5, 1.5)), storedAt(corner + vec2(1.5, 1.5)),
                 storedAt(corner + vec2(1.5, 0.5)), storedAt(corner + vec2(0.5, 0.5)));
 }
-#define textureGather(map, place) storedAround(place)
+#define textureGather(map, point) storedAround(point)
 #define textureSize(map, level) ivec3(MAP_SIZE)
 #include "shaders/lib/shadows/shadow.glsl"
 

@@ -310,7 +310,7 @@ TEST(AuditReduce, TheSmallestSceneIsFound) {
     ASSERT_GT(all, 100u);
     ASSERT_GT(whole.scene.lights.size(), 2u);
     const glm::vec3 corner = whole.scene.meshes[3].primitives.front().positions[2];
-    const glm::dmat4 place = whole.scene.nodes[3].parent_from_node;
+    const glm::dmat4 transform = whole.scene.nodes[3].parent_from_node;
     const glm::dvec3 light = whole.scene.lights[1].position;
     std::size_t tried = 0;
     const auto test = [&](const Case& c) {
@@ -320,7 +320,7 @@ TEST(AuditReduce, TheSmallestSceneIsFound) {
         for (std::size_t i = 0; i < c.scene.nodes.size(); ++i) {
             const Primitive& p = c.scene.meshes[i].primitives.front();
             for (const std::uint32_t v : p.indices)
-                drawn = drawn || (p.positions[v] == corner && c.scene.nodes[i].parent_from_node == place);
+                drawn = drawn || (p.positions[v] == corner && c.scene.nodes[i].parent_from_node == transform);
         }
         return FailingPixel{lit && drawn, 5, 5, 1.0};
     };
@@ -430,7 +430,7 @@ TEST(AuditOutput, ATableAPlotAndWords) {
     EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')),
               1 + of.steps.size() * of.series.size());
     EXPECT_NE(csv.find("haze,0.001,,deferred,gbuffer=full,1e-06,"), std::string::npos) << csv;
-    const std::string plot = auditPlot(of, PlotPlace::file);
+    const std::string plot = auditPlot(of, PlotTarget::file);
     EXPECT_NE(plot.find(">\u221e<"), std::string::npos) << "infinite errors have a lane";
     for (const Series& series : of.series) EXPECT_NE(plot.find(series.describe()), std::string::npos);
     for (const std::string& text : {output::inText(blocksOf(of)), output::inHtml(blocksOf(of))})

@@ -277,7 +277,7 @@ std::vector<std::array<double, 2>> pointsOf(const std::string& svg, const std::s
 
 TEST(BenchOutput, ThePlotHasALineAModeAndAPanelASize) {
     const Bench bench = several();
-    const std::string svg = benchPlot(bench, PlotPlace::file);
+    const std::string svg = benchPlot(bench, PlotTarget::file);
     const auto every = pointsOf(svg, "deferred v0"), clustered = pointsOf(svg, "forward_plus v0");
     ASSERT_EQ(every.size(), 2u) << svg;
     ASSERT_EQ(clustered.size(), 2u);
@@ -292,7 +292,7 @@ TEST(BenchOutput, ThePlotHasALineAModeAndAPanelASize) {
     EXPECT_NE(svg.find(">32x24"), std::string::npos);
     EXPECT_EQ(svg.find("class=\"part"), std::string::npos) << "no bars";
     EXPECT_NE(svg.find("xmlns="), std::string::npos);
-    EXPECT_EQ(benchPlot(bench, PlotPlace::page).find("xmlns="), std::string::npos);
+    EXPECT_EQ(benchPlot(bench, PlotTarget::page).find("xmlns="), std::string::npos);
 }
 
 TEST(BenchOutput, ThePageHasEverything) {

@@ -99,7 +99,7 @@ TEST(BenchConclusion, AnotherImageIsMarked) {
     EXPECT_NE(benchTable(bench, 0).find("per_object *"), std::string::npos);
     EXPECT_NE(benchEnd(bench).find(starMeans), std::string::npos);
     EXPECT_NE(benchHtml(bench).find(starMeans), std::string::npos);
-    EXPECT_NE(benchPlot(bench, PlotPlace::file).find("per_object *"), std::string::npos);
+    EXPECT_NE(benchPlot(bench, PlotTarget::file).find("per_object *"), std::string::npos);
     const nlohmann::json json = benchJson(bench);
     EXPECT_EQ(json["rows"][0]["same_picture"], true);
     EXPECT_EQ(json["rows"][3]["same_picture"], false);
@@ -118,7 +118,7 @@ Times barParts(const std::string& svg, const std::string& mode) {
 }
 
 TEST(BenchPlot, OfOneLightCountHasABarAModeStackedOfItsPasses) {
-    const std::string svg = benchPlot(oneCount(), PlotPlace::file);
+    const std::string svg = benchPlot(oneCount(), PlotTarget::file);
     EXPECT_EQ(svg.find("class=\"trace\""), std::string::npos) << "a line needs two counts";
     const Times deferred = barParts(svg, "deferred, clustered"),
                 forward = barParts(svg, "forward_plus, clustered");
@@ -132,7 +132,7 @@ TEST(BenchPlot, OfOneLightCountHasABarAModeStackedOfItsPasses) {
 
 // Each segment begins where the previous one ends.
 TEST(BenchPlot, PartsOfABarStandBesideEachOther) {
-    const std::string svg = benchPlot(oneCount(), PlotPlace::file);
+    const std::string svg = benchPlot(oneCount(), PlotTarget::file);
     const std::regex part(
         "x=\"([0-9.]+)\" y=\"[0-9.]+\" width=\"([0-9.]+)\" height=\"[0-9.]+\"><title>deferred, clustered, "
         "[^<]*ms</title>");
@@ -149,7 +149,7 @@ TEST(BenchPlot, PartsOfABarStandBesideEachOther) {
 TEST(BenchPlot, PassesBeyondItsColoursAreOnePart) {
     Bench bench = oneCount();
     for (int i = 0; i < 12; ++i) bench.rows[0].passes.push_back({"pass " + std::to_string(i), 0.01});
-    const std::string svg = benchPlot(bench, PlotPlace::file);
+    const std::string svg = benchPlot(bench, PlotTarget::file);
     EXPECT_NE(svg.find(">other passes</text>"), std::string::npos);
     EXPECT_EQ(svg.find("class=\"part part8"), std::string::npos) << "no colour that is not there";
     EXPECT_NE(svg.find("deferred, clustered, pass 11: 0.01 ms"), std::string::npos) << "each is named";

@@ -225,7 +225,7 @@ TEST(BenchLayers, TextPageJsonAndPlotHaveTheTable) {
     EXPECT_EQ(row["ways"][0]["registers"][0]["most"], 96.0);
     EXPECT_EQ(json["words"].size(), 7u);
     // A panel per light count; in each a line per way.
-    const std::string plot = benchPlot(bench, PlotPlace::file);
+    const std::string plot = benchPlot(bench, PlotTarget::file);
     const auto countOf = [&](const std::string& words) {
         std::size_t count = 0;
         for (std::size_t at = plot.find(words); at != plot.npos; at = plot.find(words, at + 1)) ++count;

@@ -112,7 +112,7 @@ void makeOutputs(const tradeoff::Tradeoff& whole) {
     tradeoffJson(whole);
     tradeoffEnd(whole);
     for (std::size_t metric = 0; metric < tradeoff::errorMetrics.size(); ++metric)
-        tradeoffPlot(whole, metric, {}, PlotPlace::file);
+        tradeoffPlot(whole, metric, {}, PlotTarget::file);
 }
 
 // Through merge, and as a checkpointed row of a sweep, with all outputs made from it.

@@ -77,7 +77,7 @@ TEST(Emitted, SuitesOfJunit) {
 }
 
 TEST(Emitted, PlotsInFiles) {
-    const std::string plot = svgOf({.title = "a & b"}, PlotPlace::file);
+    const std::string plot = svgOf({.title = "a & b"}, PlotTarget::file);
     EXPECT_EQ(faultOf([&] { checkPlot(plot); }), "");
     EXPECT_NE(faultOf([&] { checkPlot(plot + "<style></style>"); }), "");
     EXPECT_NE(faultOf([&] { checkPlot("<svg><script>a</script></svg>"); }), "");

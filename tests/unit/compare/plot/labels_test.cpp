@@ -22,7 +22,7 @@ bool meet(const PlotBox& a, const PlotBox& b) {
 TEST(PlotLabels, OfManyPointsAtOnePlaceNoneCoversAnother) {
     const PlotBox area{0, 0, 400, 300};
     for (const auto& [x, y] : {std::pair{200.0, 150.0}, {0.0, 0.0}, {400.0, 300.0}, {400.0, 0.0}}) {
-        const std::vector<PlotBox> boxes = placeLabels(std::vector<Label>(8, {x, y, 24, 18}), {}, area);
+        const std::vector<PlotBox> boxes = positionLabels(std::vector<Label>(8, {x, y, 24, 18}), {}, area);
         ASSERT_EQ(boxes.size(), 8u);
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             EXPECT_DOUBLE_EQ(boxes[i].right - boxes[i].left, 24);
@@ -37,13 +37,13 @@ TEST(PlotLabels, OfManyPointsAtOnePlaceNoneCoversAnother) {
 
 TEST(PlotLabels, StandsAboveOnTheRightUnlessAMarkIsThere) {
     const PlotBox area{0, 0, 400, 300};
-    const PlotBox free = placeLabels({{200, 150, 24, 18}}, {}, area).front();
+    const PlotBox free = positionLabels({{200, 150, 24, 18}}, {}, area).front();
     EXPECT_GT(free.left, 200);
     EXPECT_LT(free.bottom, 150);
-    const PlotBox moved = placeLabels({{200, 150, 24, 18}}, {free}, area).front();
+    const PlotBox moved = positionLabels({{200, 150, 24, 18}}, {free}, area).front();
     EXPECT_FALSE(meet(moved, free));
     // With marks everywhere, a label is still placed.
-    const PlotBox crowded = placeLabels({{200, 150, 24, 18}}, {area}, area).front();
+    const PlotBox crowded = positionLabels({{200, 150, 24, 18}}, {area}, area).front();
     EXPECT_TRUE(meet(crowded, area));
 }
 
@@ -61,7 +61,7 @@ std::string labelled(const std::vector<std::pair<double, double>>& points, bool 
                         .y = points[i].second,
                         .row = i + 1,
                         .label = all || isBest(points[i]) ? std::to_string(i + 1) : ""});
-    return svgOf({.panels = {panel}}, PlotPlace::page);
+    return svgOf({.panels = {panel}}, PlotTarget::page);
 }
 
 // Twelve points within a hundredth of an axis: each has its number, and the numbers do not overlap.

@@ -33,12 +33,12 @@ Plot plotOf(const std::vector<PlotPoint>& points) {
 
 // Well-formed, of the shape that pages may have, and without a length that is no number.
 void expectSound(const Plot& plot) {
-    for (const PlotPlace place : {PlotPlace::file, PlotPlace::page}) {
+    for (const PlotTarget place : {PlotTarget::file, PlotTarget::page}) {
         const std::string svg = svgOf(plot, place);
         EXPECT_EQ(markupFault(svg), "");
         EXPECT_NO_THROW(checkPlot(svg));
         EXPECT_EQ(allOf(svg, "([a-z0-9]+=\"[^\"]*(?:nan|inf)\\b[^\"]*\")"), std::vector<std::string>());
-        EXPECT_EQ(svg.find("xmlns=") != svg.npos, place == PlotPlace::file);
+        EXPECT_EQ(svg.find("xmlns=") != svg.npos, place == PlotTarget::file);
     }
 }
 
@@ -156,7 +156,7 @@ TEST(Plot, ForeignTextIsEscapedEverywhere) {
     panel.limits = {{.x = 1, .name = "l" + hostile}};
     plot.panels = {panel};
     expectSound(plot);
-    for (const PlotPlace place : {PlotPlace::file, PlotPlace::page}) {
+    for (const PlotTarget place : {PlotTarget::file, PlotTarget::page}) {
         const std::string svg = svgOf(plot, place);
         EXPECT_EQ(svg.find("<b>"), svg.npos);
         EXPECT_GE(countOf(svg, "&lt;b&gt;&quot;a&#39; &amp; &lt;/svg&gt;\ufffd"), 10u);
@@ -166,7 +166,7 @@ TEST(Plot, ForeignTextIsEscapedEverywhere) {
 TEST(Plot, PointsHaveMarksOfTheirPathAndIntervals) {
     Plot plot = plotOf({{.x = 1, .y = 1, .up = {0.5, 2}, .row = 7}});
     plot.panels[0].pointsOf("forward_plus", Path::forward_plus, false).push_back({.x = 2, .y = 1});
-    const std::string page = svgOf(plot, PlotPlace::page), file = svgOf(plot, PlotPlace::file);
+    const std::string page = svgOf(plot, PlotTarget::page), file = svgOf(plot, PlotTarget::file);
     EXPECT_EQ(countOf(page, "<circle class=\"mark\""), 2u) << "round, and in the legend";
     EXPECT_EQ(countOf(page, "<rect class=\"mark\""), 2u) << "square";
     EXPECT_EQ(countOf(page, "class=\"bar\""), 1u) << "equal ends are no interval";
@@ -174,7 +174,7 @@ TEST(Plot, PointsHaveMarksOfTheirPathAndIntervals) {
     EXPECT_EQ(countOf(page, "data-row=\"7\" tabindex=\"0\" role=\"img\""), 1u) << "the other has no row";
     EXPECT_EQ(file.find("tabindex"), file.npos);
     plot.chooses = true;
-    EXPECT_EQ(countOf(svgOf(plot, PlotPlace::page), "role=\"button\""), 1u);
+    EXPECT_EQ(countOf(svgOf(plot, PlotTarget::page), "role=\"button\""), 1u);
 }
 
 // A path's series differ in dashes; series of one name are one in all panels.
@@ -185,7 +185,7 @@ TEST(Plot, SeriesDifferAndAreNamedOnce) {
         panel.pointsOf("other", Path::forward_plus).push_back({1, 2});
         panel.pointsOf("second", Path::deferred).push_back({1, 3});
     }
-    const std::string svg = svgOf(plot, PlotPlace::page);
+    const std::string svg = svgOf(plot, PlotTarget::page);
     for (const char* classes : {"series deferred v0", "series deferred v1", "series forward_plus v0"})
         EXPECT_EQ(countOf(svg, "\"" + std::string(classes) + "\""), 3u)
             << classes << ": two panels and the legend";
@@ -195,16 +195,16 @@ TEST(Plot, SeriesDifferAndAreNamedOnce) {
 
 TEST(Plot, AFrontIsAStepLineBelowAllItsPoints) {
     Plot plot = plotOf({{.x = 1, .y = 1}, {.x = 10, .y = 0.1}, {.x = 100, .y = 0.01}});
-    EXPECT_EQ(svgOf(plot, PlotPlace::page).find("front"), std::string::npos);
+    EXPECT_EQ(svgOf(plot, PlotTarget::page).find("front"), std::string::npos);
     plot.panels[0].front = {{10, 0.1}, {1, 1}};
-    const std::string svg = svgOf(plot, PlotPlace::page);
+    const std::string svg = svgOf(plot, PlotTarget::page);
     EXPECT_EQ(allOf(svg, "class=\"front\" d=\"M[0-9. ]+V([0-9.]+)H").size(), 1u) << "sorted, from the left";
     EXPECT_EQ(allOf(svg, "(>Pareto front<)").size(), 1u);
 }
 
 // A name above its axis does not collide with ticks, and it is not rotated.
 TEST(Plot, AnAxisIsNamedAboveIt) {
-    const std::string svg = svgOf(plotOf({{.x = 1, .y = 0.002}, {.x = 2, .y = 0.001}}), PlotPlace::page);
+    const std::string svg = svgOf(plotOf({{.x = 1, .y = 0.002}, {.x = 2, .y = 0.001}}), PlotTarget::page);
     EXPECT_EQ(svg.find("rotate"), std::string::npos);
     const std::vector<std::string> name =
         allOf(svg, "<text class=\"name\" x=\"[0-9.]+\" y=\"([0-9.]+)\">error<");

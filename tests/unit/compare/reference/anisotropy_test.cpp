@@ -142,10 +142,10 @@ TEST(ReferenceAnisotropy, ARectangleAcrossTheLobe) {
             return glm::dvec3(c * d.x + sine * d.y, c * d.y - sine * d.x, d.z);
         };
         const double expected = simpson(800, 200, [&](double u, double v) {
-            const glm::dvec3 place(-1.25 + 2 * u, -0.125 + 0.5 * v, 1);
-            return stretchedLobe(widthsBy(roughness, strength), turned(glm::normalize(place)),
+            const glm::dvec3 position(-1.25 + 2 * u, -0.125 + 0.5 * v, 1);
+            return stretchedLobe(widthsBy(roughness, strength), turned(glm::normalize(position)),
                                  turned(s.to_viewer)) /
-                   std::pow(glm::dot(place, place), 1.5);
+                   std::pow(glm::dot(position, position), 1.5);
         });
         EXPECT_NEAR(reflectedBy(light, s), expected, 1e-5 * expected) << azimuth;
     }

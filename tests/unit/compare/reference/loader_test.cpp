@@ -80,8 +80,8 @@ TEST(ReferenceLoader, ANodeChainTurnsAndStretches) {
     // The light shines along its node's -Z, here rotated to -Y.
     f.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 2}, {"color", {1, 0.5, 0.25}}}};
-    const glm::dvec3 place(1.0 / 3, 1.0 / 3, -2.0 / 3);
-    const Drawn d = drawn(f.load(), viewFrom(place + glm::dvec3(0, 4, 0), place, 1, 1, 0.01));
+    const glm::dvec3 position(1.0 / 3, 1.0 / 3, -2.0 / 3);
+    const Drawn d = drawn(f.load(), viewFrom(position + glm::dvec3(0, 4, 0), position, 1, 1, 0.01));
     expectNear(at(d[Channel::normals], 0, 0), glm::dvec3(0, 2, 1) / std::sqrt(5.0));
     expectNear(at(d[Channel::geometric_normal], 0, 0), glm::dvec3(0, 2, 1) / std::sqrt(5.0));
     EXPECT_NEAR(double{d[Channel::depth].at(0, 0)}, 4, 1e-6);
@@ -127,10 +127,10 @@ TEST(ReferenceLoader, AnAreaLightOfExtras) {
     const Drawn d = front(f.load());
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) {
-            const glm::dvec3 place(-0.75 + 0.5 * x, 0.75 - 0.5 * y, 0);
+            const glm::dvec3 position(-0.75 + 0.5 * x, 0.75 - 0.5 * y, 0);
             const std::vector<glm::dvec3> corners{
-                glm::dvec3(-1.5, -0.5, 2) - place, glm::dvec3(1.5, -0.5, 2) - place,
-                glm::dvec3(1.5, 0.5, 2) - place, glm::dvec3(-1.5, 0.5, 2) - place};
+                glm::dvec3(-1.5, -0.5, 2) - position, glm::dvec3(1.5, -0.5, 2) - position,
+                glm::dvec3(1.5, 0.5, 2) - position, glm::dvec3(-1.5, 0.5, 2) - position};
             const double expected = 10 * lambertIrradiance(corners, {0, 0, 1}) / pi;
             EXPECT_NEAR(double{d[Channel::lit].at(x, y, 1)}, expected, 1e-6 * expected);
         }

@@ -174,19 +174,19 @@ TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
             for (const double metallic : {0.0, 1.0}) {
                 const Surface s = plastic(roughness, angle, metallic);
                 const glm::dvec2 m{-std::tan(angle), 0};
-                for (const glm::dvec4& place : {glm::dvec4(-1, 1, -1, 1),
-                                                {-4, 0.0625, -0.03125, 2},
-                                                {0, 8, -4, 4},
-                                                {0.125, 1, 0.25, 1},
-                                                {-0.015625, 0.5, -0.015625, 0.0625}}) {
+                for (const glm::dvec4& location : {glm::dvec4(-1, 1, -1, 1),
+                                                   {-4, 0.0625, -0.03125, 2},
+                                                   {0, 8, -4, 4},
+                                                   {0.125, 1, 0.25, 1},
+                                                   {-0.015625, 0.5, -0.015625, 0.0625}}) {
                     // The light's float32 centre is off by 1e-7 / alpha, relative to the narrowest lobe.
-                    Light light = ceilingRect(place);
+                    Light light = ceilingRect(location);
                     light.position.x += m.x;
-                    const glm::dvec4 e = place + glm::dvec4(m.x, m.x, 0, 0);
+                    const glm::dvec4 e = location + glm::dvec4(m.x, m.x, 0, 0);
                     const double expected = ceilingLight(s, e, m);
                     const Shading shading = shadedBy(std::span(&light, 1), s);
                     EXPECT_NEAR(red(shading.reflected), expected, 1e-6 * expected)
-                        << roughness << " " << angle << " " << metallic << " " << place.x;
+                        << roughness << " " << angle << " " << metallic << " " << location.x;
                     EXPECT_LE(shading.uncertainty, 1e-6 * expected);
                 }
             }
@@ -255,8 +255,8 @@ TEST(ReferenceLobes, ASunInAMirror) {
 
 // The light of a point in float32, without cancellation in the lobe: GGX, Smith's height-correlated masking
 // and KHR_lights_punctual's window.
-double lightInFloat(const Light& light, const glm::vec3& place, const glm::vec3& n, float alpha) {
-    const glm::vec3 away = glm::vec3(light.position) - place, v = -place / glm::length(place);
+double lightInFloat(const Light& light, const glm::vec3& location, const glm::vec3& n, float alpha) {
+    const glm::vec3 away = glm::vec3(light.position) - location, v = -location / glm::length(location);
     const float d2 = glm::dot(away, away), x = d2 * (1 / (light.range * light.range));
     const glm::vec3 l = away / std::sqrt(d2), s = l + v, across = glm::cross(n, s);
     const float up = glm::dot(n, s), alpha2 = alpha * alpha, q = glm::dot(across, across) + up * up * alpha2;
@@ -285,9 +285,9 @@ TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
         int lights = 0, beyond_fraction = 0, wider_seen = 0, brighter_seen = 0;
         double closest = 0, max = 0;
         for (int i = 0; i < 20000; ++i) {
-            const glm::vec3 place(anywhere() * number(5, 20)), n = glm::normalize(glm::vec3(anywhere()));
+            const glm::vec3 location(anywhere() * number(5, 20)), n = glm::normalize(glm::vec3(anywhere()));
             Surface s = mirror(kind == sharp ? number(0, 0.2) : number(0.3, 1), 0);
-            s.position = glm::dvec3(place);
+            s.position = glm::dvec3(location);
             s.to_viewer = -glm::normalize(s.position);
             s.normal = s.geometric_normal = glm::normalize(glm::dvec3(n));
             const double alpha = std::pow(std::max(s.roughness, min_roughness), 2);
@@ -303,7 +303,7 @@ TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
                 distance * (1 + (kind == ending ? std::exp(number(-8, -4)) : number(0.5, 3))));
             const Shading shading = shadedBy(std::span(&light, 1), s);
             const auto errorOf = [&](double width, double factor) {
-                return std::abs(factor * lightInFloat(light, place, n, static_cast<float>(width)) -
+                return std::abs(factor * lightInFloat(light, location, n, static_cast<float>(width)) -
                                 shading.reflected.specular.g);
             };
             const double fraction = everywhereRounded * shading.reflected.specular.g,

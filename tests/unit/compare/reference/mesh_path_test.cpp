@@ -30,8 +30,8 @@ Scene ballScene(const Material& glass) {
     scene.lights = {lightOf(LightKind::point, {0, 0, -1.5})};
     return scene;
 }
-double floorUnderBall(const glm::dvec3& place) {
-    const glm::dvec3 path = glm::dvec3(0, 0, -1.5) - place;
+double floorUnderBall(const glm::dvec3& position) {
+    const glm::dvec3 path = glm::dvec3(0, 0, -1.5) - position;
     return path.z / std::pow(glm::length(path), 3) / pi;
 }
 
@@ -50,8 +50,9 @@ double throughBall(double beside, double index, double absorbed) {
     double sum = 0;
     for (int k = 0; k < 16; ++k) {
         const double polar = i + (k + 1) * (pi - 2 * r), turn = 2 * (i - r) + k * (pi - 2 * r);
-        const glm::dvec3 place(std::sin(polar), 0, std::cos(polar)), d(-std::sin(turn), 0, -std::cos(turn));
-        const glm::dvec3 floor = place + d * ((-3 - place.z) / d.z);
+        const glm::dvec3 position(std::sin(polar), 0, std::cos(polar)),
+            d(-std::sin(turn), 0, -std::cos(turn));
+        const glm::dvec3 floor = position + d * ((-3 - position.z) / d.z);
         if (!(d.z < 0) || std::abs(floor.x) > 10) continue;
         sum += (1 - reflected) * std::pow(reflected, k) * std::pow(absorbed, 2 * (k + 1) * std::cos(r)) *
                floorUnderBall(floor);

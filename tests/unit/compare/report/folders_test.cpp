@@ -64,14 +64,14 @@ TEST(ReportFolders, AnotherSceneChangesNoName) {
     EXPECT_EQ(before.at("builtin:gallery entrance"), "gallery/entrance/");
     for (const Asked& added :
          std::vector<Asked>{{"A.glb"}, {"y/Box.glb"}, {"x/Box.gltf"}, {"builtin:gallery"}})
-        for (const std::size_t place : {0, 1, 2}) {
+        for (const std::size_t index : {0, 1, 2}) {
             std::vector<Asked> three = two;
-            three.insert(three.begin() + static_cast<std::ptrdiff_t>(place), added);
+            three.insert(three.begin() + static_cast<std::ptrdiff_t>(index), added);
             const auto after = foldersBy(three);
             std::set<std::string> names;
             for (const auto& [key, name] : after) names.insert(name);
             EXPECT_EQ(names.size(), 3u) << added.scene << " has a folder of its own";
-            for (const auto& [key, name] : before) EXPECT_EQ(after.at(key), name) << added.scene << place;
+            for (const auto& [key, name] : before) EXPECT_EQ(after.at(key), name) << added.scene << index;
         }
     EXPECT_EQ(foldersBy({{"./x/Box.glb"}, {"A.glb"}}).at("./x/Box.glb "), before.at("x/Box.glb "))
         << "however its path is written";

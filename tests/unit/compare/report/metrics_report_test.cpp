@@ -73,7 +73,7 @@ std::string withoutTags(const std::string& html) {
     return std::regex_replace(html, std::regex("<[^>]*>"), " ");
 }
 
-const std::size_t worstPlace = spreadPixel(counted - 1);
+const std::size_t worstPixel = spreadPixel(counted - 1);
 
 TEST(PrintedMetrics, ReportJsonHasThemUnderTheirKeys) {
     const auto report = nlohmann::json::parse(reportJson(spreadReport(), nullptr));
@@ -81,7 +81,7 @@ TEST(PrintedMetrics, ReportJsonHasThemUnderTheirKeys) {
     for (const auto& [name, value] : printedMetrics())
         EXPECT_NEAR(channel[name].get<double>(), value, 1e-12) << name;
     EXPECT_EQ(report["comparisons"][0]["covered_pixels"], counted);
-    EXPECT_EQ(channel["worst_pixel"], (nlohmann::json{worstPlace % wide, worstPlace / wide}));
+    EXPECT_EQ(channel["worst_pixel"], (nlohmann::json{worstPixel % wide, worstPixel / wide}));
     EXPECT_EQ(channel["worst_values"]["baseline"][0], magnitudeOf(counted - 1));
     EXPECT_EQ(channel["worst_values"]["test"][0], magnitudeOf(counted - 1) + stepOf(counted - 1));
 }
@@ -92,7 +92,7 @@ TEST(PrintedMetrics, TheTableHasThemUnderTheirHeads) {
     const Metrics expected = printedMetrics();
     for (const auto& [head, name] : {std::pair{"max", "max"}, {"mean", "mean"}, {"p99.9", "p999"}})
         EXPECT_EQ(cells.at(head), page::number(expected.at(name))) << table;
-    EXPECT_NE(table.find(fmt::format("worst at {},{}", worstPlace % wide, worstPlace / wide)),
+    EXPECT_NE(table.find(fmt::format("worst at {},{}", worstPixel % wide, worstPixel / wide)),
               std::string::npos)
         << table;
 }
@@ -119,13 +119,13 @@ TEST(PrintedMetrics, ThePageHasThemBesideTheirNames) {
                                                       page.find("</tr>", row) - page.find("</td>", row))));
     for (const auto& [name, metric] : {std::pair{"max", "max"}, {"mean", "mean"}, {"p99.9", "p999"}})
         EXPECT_EQ(cells.at(name), page::number(expected.at(metric))) << name;
-    EXPECT_NE(card.find(fmt::format("<dt>forward_plus at {},{}</dt><dd>{}</dd>", worstPlace % wide,
-                                    worstPlace / wide,
+    EXPECT_NE(card.find(fmt::format("<dt>forward_plus at {},{}</dt><dd>{}</dd>", worstPixel % wide,
+                                    worstPixel / wide,
                                     static_cast<float>(magnitudeOf(counted - 1) + stepOf(counted - 1)))),
               std::string::npos);
     EXPECT_NE(
-        card.find(fmt::format("--u:{:.5f};--v:{:.5f}", (static_cast<double>(worstPlace % wide) + 0.5) / wide,
-                              (static_cast<double>(worstPlace / wide) + 0.5) / high)),
+        card.find(fmt::format("--u:{:.5f};--v:{:.5f}", (static_cast<double>(worstPixel % wide) + 0.5) / wide,
+                              (static_cast<double>(worstPixel / wide) + 0.5) / high)),
         std::string::npos)
         << "the ring is around its centre";
 }
@@ -138,7 +138,7 @@ TEST(PrintedMetrics, JunitNamesThem) {
     EXPECT_NE(
         junit.find(fmt::format("max {} mean {} p99.9 {} (absolute), worst at {},{}",
                                page::number(expected.at("max")), page::number(expected.at("mean")),
-                               page::number(expected.at("p999")), worstPlace % wide, worstPlace / wide)),
+                               page::number(expected.at("p999")), worstPixel % wide, worstPixel / wide)),
         std::string::npos)
         << junit;
 }
@@ -215,7 +215,7 @@ TEST(PrintedMetrics, OfTwoFilesStandUnderTheirKeysAndHeads) {
         EXPECT_NEAR(json[name].get<double>(), value, 1e-12) << name;
         EXPECT_NEAR(json["metrics"][name].get<double>(), value, 1e-12) << name;
     }
-    EXPECT_EQ(json["worst_pixel"], (nlohmann::json{worstPlace % wide, worstPlace / wide}));
+    EXPECT_EQ(json["worst_pixel"], (nlohmann::json{worstPixel % wide, worstPixel / wide}));
     const std::string table = diffTable({&diff, 1});
     const auto cells = byHead(lineWith(table, "channel"), lineWith(table, "lit"));
     EXPECT_EQ(cells.at("p99.9"), page::number(expected.at("p999")));

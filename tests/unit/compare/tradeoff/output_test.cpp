@@ -165,7 +165,7 @@ TEST(TradeoffOutput, PlotsAndPageAreWellFormed) {
     const Tradeoff tradeoff = several();
     for (std::size_t metric = 0; metric < tradeoff::errorMetrics.size(); ++metric)
         for (const std::optional<Path> path : {std::optional<Path>(), std::optional(Path::deferred)}) {
-            const std::string svg = tradeoffPlot(tradeoff, metric, path, PlotPlace::file);
+            const std::string svg = tradeoffPlot(tradeoff, metric, path, PlotTarget::file);
             EXPECT_EQ(markupFault(svg), "");
             EXPECT_EQ(svg.find("nan"), std::string::npos);
             EXPECT_NE(svg.find("xmlns=\"http://www.w3.org/2000/svg\""), std::string::npos);

@@ -89,7 +89,7 @@ TEST(ViewerCanvas, AnImageFillsItsPanel) {
     EXPECT_EQ(inCanvas(pixels, 37, 0, 0), (Rgb8Pixel{26, 26, 28}));
     const auto under = pixelUnder(places, shown.size, 4.5, 1.5);
     ASSERT_TRUE(under);
-    EXPECT_EQ(under->pixel, (PixelPlace{1, 0}));
+    EXPECT_EQ(under->pixel, (PixelPosition{1, 0}));
     EXPECT_FALSE(pixelUnder(places, shown.size, 4.5, 0.5));
     // With the larger of the two factors, part of the image would be outside.
     EXPECT_DOUBLE_EQ(placesOf({0, 0, 37, 10}, shown.size, view, false)[0].placement.scale, 2);

@@ -27,7 +27,7 @@ std::vector<Channel> everyMode() {
 TEST(Captures, EachChannelHasComponentsOfItsOwn) {
     std::map<std::pair<gpu::uint, gpu::uint>, Channel> taken;
     for (const DebugMode& mode : debugModes()) {
-        const auto [image, component] = placeInCaptures(mode.channel);
+        const auto [image, component] = captureIndex(mode.channel);
         ASSERT_LT(image, gpu::CAPTURE_IMAGES) << mode.name;
         EXPECT_LE(component + static_cast<gpu::uint>(mode.width), 4u) << mode.name;
         EXPECT_EQ(image >= gpu::FIRST_LIT_IMAGE, isShaded(mode.channel)) << mode.name;
@@ -38,9 +38,9 @@ TEST(Captures, EachChannelHasComponentsOfItsOwn) {
     for (const Channel mode : {Channel::lit, Channel::shaded_samples})
         for (const Channel other : everyMode()) {
             if (other == mode) continue;
-            EXPECT_NE(placeInCaptures(other).image, placeInCaptures(mode).image) << debugMode(other).name;
+            EXPECT_NE(captureIndex(other).image, captureIndex(mode).image) << debugMode(other).name;
         }
-    EXPECT_THROW(placeInCaptures(foreignChannel(0)), std::out_of_range);
+    EXPECT_THROW(captureIndex(foreignChannel(0)), std::out_of_range);
 }
 
 // Every requested channel once, images in order; light in as few passes as possible.

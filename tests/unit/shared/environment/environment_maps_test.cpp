@@ -165,7 +165,7 @@ TEST(EnvironmentMaps, AWindowIsAsSmallAsKeepsIrradianceFromBeingNegative) {
 TEST(EnvironmentMaps, AnOctahedralMapHasNoSeam) {
     for (int i = 0; i < 500; ++i) {
         const glm::vec3 d(onSphere(i, 500));
-        EXPECT_LT(glm::length(octahedralDirection(octahedralPlace(d)) - d), 1e-6f) << i;
+        EXPECT_LT(glm::length(octahedralDirection(octahedralPosition(d)) - d), 1e-6f) << i;
     }
     OctahedralMap map(8);
     double sum = 0;
@@ -215,9 +215,9 @@ TEST(EnvironmentMaps, ALargeImageIsReadWhole) {
     EXPECT_EQ(maps.levels.front().side, 1025);
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 d = onSphere(i, 200);
-        const glm::vec2 place = octahedralPlace(glm::vec3(d));
-        EXPECT_NEAR(maps.levels.front().interpolated(place).y, 2 + d.y, 1e-4) << i;
-        EXPECT_NEAR(maps.diffuse.interpolated(place).y, 2 + d.y * 2 / 3, 3e-3) << i;
+        const glm::vec2 position = octahedralPosition(glm::vec3(d));
+        EXPECT_NEAR(maps.levels.front().interpolated(position).y, 2 + d.y, 1e-4) << i;
+        EXPECT_NEAR(maps.diffuse.interpolated(position).y, 2 + d.y * 2 / 3, 3e-3) << i;
     }
 }
 
@@ -313,7 +313,7 @@ TEST(EnvironmentMaps, AnIrradianceMapIsTheSum) {
     const EnvironmentMaps maps = makeEnvironmentMaps(sky, {{16, 1}, true});
     for (int i = 0; i < 100; ++i) {
         const glm::dvec3 n = onSphere(i, 100);
-        EXPECT_NEAR(maps.diffuse.interpolated(octahedralPlace(glm::vec3(n))).z, (1 + n.y) / 2, 2e-3) << i;
+        EXPECT_NEAR(maps.diffuse.interpolated(octahedralPosition(glm::vec3(n))).z, (1 + n.y) / 2, 2e-3) << i;
     }
     const TruncationError raw = truncationError(maps, 0);
     EXPECT_LT(raw.worst, 1e-3) << "a half sky has no even band but 0, which irradiance would keep";
@@ -348,7 +348,7 @@ TEST(EnvironmentMaps, NodesHaveNoFoldAndNoSeam) {
     for (int i = 0; i < 500; ++i) {
         const glm::vec3 d(onSphere(i, 500));
         const float l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-        const glm::vec3 got = faces.interpolated(octahedralPlace(d));
+        const glm::vec3 got = faces.interpolated(octahedralPosition(d));
         EXPECT_LT(glm::length(got - glm::vec3(std::abs(d.x), std::abs(d.y), d.z) / l1), 2e-6f) << i;
     }
 }
@@ -358,13 +358,13 @@ TEST(EnvironmentMaps, AnAtlasHoldsEachMapOnce) {
     const EnvironmentAtlas atlas = layOut(maps);
     ASSERT_EQ(atlas.levels.size(), maps.levels.size());
     std::vector<int> owners(atlas.texels.size());
-    const auto check = [&](const NodeMap& map, const glm::vec4& place) {
-        EXPECT_EQ(place.z, static_cast<float>(map.side));
+    const auto check = [&](const NodeMap& map, const glm::vec4& position) {
+        EXPECT_EQ(position.z, static_cast<float>(map.side));
         for (int y = 0; y < map.side; ++y)
             for (int x = 0; x < map.side; ++x) {
-                const std::size_t i = static_cast<std::size_t>(static_cast<int>(place.y) + y) *
+                const std::size_t i = static_cast<std::size_t>(static_cast<int>(position.y) + y) *
                                           static_cast<std::size_t>(atlas.width) +
-                                      static_cast<std::size_t>(static_cast<int>(place.x) + x);
+                                      static_cast<std::size_t>(static_cast<int>(position.x) + x);
                 ASSERT_EQ(++owners.at(i), 1);
                 ASSERT_EQ(atlas.texels[i].y, map.at(x, y)[1]);
             }

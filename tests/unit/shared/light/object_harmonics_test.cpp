@@ -235,8 +235,8 @@ TEST(PerObject, TheGroupsShareEachLight) {
 // An object's harmonics are the projection of the remaining lights' irradiance, weighted by their shares.
 // With the other groups' lights they give the irradiance of all lights, within the error of three bands.
 TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
-    const ObjectPlace box{{0, 0, 0},
-                          {0.2, 0.1, 0.3}};  // smaller than all distances here, so no light is softened
+    const ObjectPosition box{{0, 0, 0},
+                             {0.2, 0.1, 0.3}};  // smaller than all distances here, so no light is softened
     for (const auto& [pixels, falloff] :
          {std::pair(0u, LightFalloff{}), {3u, LightFalloff{}}, {0u, LightFalloff{true, true}}}) {
         const GpuLights all = fromEye(mixedLights(17, 30, 4), falloff);
@@ -277,9 +277,9 @@ TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
 // ---- no popping --------------------------------------------------------------------------------------
 
 // Irradiance of each group at the box's centre for several normals, with the lights' shares.
-std::vector<glm::dvec3> groupsAt(const std::vector<Light>& lights, const ObjectPlace& box) {
+std::vector<glm::dvec3> groupsAt(const std::vector<Light>& lights, const ObjectPosition& box) {
     const GpuLights all = gpuLights(lights, box.centre);
-    const ObjectPlace here{{0, 0, 0}, box.half};
+    const ObjectPosition here{{0, 0, 0}, box.half};
     const ObjectLightLists lists = objectLightLists(all, std::span(&here, 1), 2);
     const gpu::ObjectLights& object = lists.objects[0];
     std::vector<glm::dvec3> result;
@@ -332,7 +332,7 @@ TEST(PerObject, EachGroupIsContinuous) {
         return groupsAt(moved, unitBox);
     };
     const auto objectWalks = [&](double x) {
-        ObjectPlace box = unitBox;
+        ObjectPosition box = unitBox;
         box.centre = {x, 0.2, 0.1};
         return groupsAt(lights, box);
     };

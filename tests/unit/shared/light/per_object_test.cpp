@@ -27,7 +27,7 @@ TEST(PerObject, BrightnessIsTheLuminanceOfIrradianceFarAway) {
 
 // A long box is lit if the light is close to any part of it, not only to the centre.
 TEST(PerObject, BrightnessIsThatOfTheNearestPlace) {
-    const ObjectPlace plank{{0, 0, 0}, {10, 0.1, 0.1}};
+    const ObjectPosition plank{{0, 0, 0}, {10, 0.1, 0.1}};
     const GpuLights lights = fromEye({point({10, 1, 0}, 1, 2)});
     EXPECT_GT(brightnessAt(lights, 0, plank), 0) << "10 m from the centre, beyond its range";
 }
@@ -35,7 +35,7 @@ TEST(PerObject, BrightnessIsThatOfTheNearestPlace) {
 // The light is 2 m away and has a range of 2.5 m. The spot's axis misses the object by 0.4 rad, so that the
 // object is between its cones.
 TEST(PerObject, BrightnessAndHarmonicsHaveTheFalloff) {
-    const ObjectPlace dot{{0, 0, 0}, glm::dvec3(1e-6)};
+    const ObjectPosition dot{{0, 0, 0}, glm::dvec3(1e-6)};
     Light lamp = point({0, 0, 2}, 3, 2.5f), spot = lamp;
     spot.kind = LightKind::spot;
     spot.direction = {std::sin(0.4), 0, -std::cos(0.4)};
@@ -65,7 +65,7 @@ TEST(PerObject, NoLightThatReachesIsDark) {
     const auto vec = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
     std::size_t lit = 0, dark = 0;
     for (int round = 0; round < 4000; ++round) {
-        const ObjectPlace box{20.0 * vec(), glm::abs(vec()) * std::pow(10.0, 2 * unit(random))};
+        const ObjectPosition box{20.0 * vec(), glm::abs(vec()) * std::pow(10.0, 2 * unit(random))};
         Light light = point(20.0 * vec(), 1, static_cast<float>(std::pow(10.0, 1 + unit(random))));
         if (round % 2) {
             light.kind = LightKind::spot;
@@ -80,9 +80,9 @@ TEST(PerObject, NoLightThatReachesIsDark) {
         const bool found = brightness > 0;
         bool reached = false;
         for (int i = 0; i < 50; ++i) {
-            const glm::vec3 place(box.centre +
-                                  box.half * glm::sign(vec()) * (i % 2 ? glm::dvec3(1) : glm::abs(vec())));
-            const glm::vec3 to_light = lights.lights[0].position - place;
+            const glm::vec3 location(box.centre +
+                                     box.half * glm::sign(vec()) * (i % 2 ? glm::dvec3(1) : glm::abs(vec())));
+            const glm::vec3 to_light = lights.lights[0].position - location;
             const float d2 = glm::dot(to_light, to_light), x = d2 * lights.lights[0].inverse_range_squared;
             bool here = x < 1;
             double fraction = here ? std::pow(1 - double{x} * double{x}, falloff.squared_window ? 2 : 1) : 0;
@@ -325,7 +325,7 @@ TEST(PerObject, AreaLightsArePerPixelOrHarmonics) {
         const glm::dvec3 n(std::sin(i), 0, std::cos(i));
         EXPECT_NEAR(evaluated(of_panel, n), evaluated(of_point, n), 1e-9);
     }
-    const ObjectPlace places[] = {unitBox};
+    const ObjectPosition places[] = {unitBox};
     EXPECT_EQ(objectLightLists(all, places, 10).objects[0].area_end, 4u);
 }
 
@@ -419,9 +419,9 @@ TEST(PerObject, EqualLightsMakeRoomWithoutAPop) {
 }
 
 TEST(PerObject, AnObjectWithALightmapHasNoHarmonics) {
-    ObjectPlace baked = unitBox;
+    ObjectPosition baked = unitBox;
     baked.harmonics = false;
-    const ObjectPlace places[] = {unitBox, baked};
+    const ObjectPosition places[] = {unitBox, baked};
     const ObjectLightLists lists = objectLightLists(fromEye(row(12)), places, 1);
     EXPECT_EQ(lists.features, gpu::OBJECT_LIGHTS_LISTS | gpu::OBJECT_LIGHTS_VERTEX | gpu::OBJECT_LIGHTS_SH);
     EXPECT_GT(lists.objects[0].irradiance.constant.g, 0);

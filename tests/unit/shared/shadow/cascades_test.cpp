@@ -152,17 +152,17 @@ TEST(Cascades, ShadersAndMapsAgree) {
     EXPECT_EQ(light.light, 2u);
     for (std::size_t i = 0; i < areas.size(); ++i) {
         const glm::dvec3 p = pointAt(view, 0.3, -0.2, cascades.areas[i].end);
-        const glm::vec3 place(p - view.eye());
+        const glm::vec3 position(p - view.eye());
         const glm::dvec4 clip =
             cascades.clipFromWorld(cascades.areas[i], 1024, view.eye()) * glm::dvec4(p - view.eye(), 1);
         const glm::vec2 texel =
-            glm::vec2(glm::dot(place, light.x), glm::dot(place, light.y)) * areas[i].texels_per_metre +
+            glm::vec2(glm::dot(position, light.x), glm::dot(position, light.y)) * areas[i].texels_per_metre +
             areas[i].offset;
         EXPECT_NEAR(double{texel.x}, (clip.x + 1) * 512, 1e-3);
         EXPECT_NEAR(double{texel.y}, (clip.y + 1) * 512, 1e-3);
-        EXPECT_NEAR(double{glm::dot(place, light.to_light) * light.depth_scale + light.depth_offset}, clip.z,
-                    1e-6);
-        EXPECT_NEAR(double{glm::dot(place, light.forward)}, cascades.areas[i].end, 1e-5);
+        EXPECT_NEAR(double{glm::dot(position, light.to_light) * light.depth_scale + light.depth_offset},
+                    clip.z, 1e-6);
+        EXPECT_NEAR(double{glm::dot(position, light.forward)}, cascades.areas[i].end, 1e-5);
         EXPECT_EQ(light.ends[static_cast<int>(i)], static_cast<float>(cascades.areas[i].end));
     }
 }

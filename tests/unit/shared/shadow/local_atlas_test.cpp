@@ -170,8 +170,8 @@ TEST(LocalAtlas, ShadersAndTilesAgree) {
             // In the light's axes for a face, as defined in the contract.
             const double a = light.tangent * any(random), b = light.tangent * any(random),
                          depth = light.far * (0.01 + 0.98 * std::abs(any(random)));
-            const glm::dvec3 place = light.position + depth * (a * axes[0] + b * axes[1] + axes[2]);
-            const glm::dvec4 clip = atlas.clipFromWorld(tile, view.eye()) * glm::dvec4(place - view.eye(), 1);
+            const glm::dvec3 point = light.position + depth * (a * axes[0] + b * axes[1] + axes[2]);
+            const glm::dvec4 clip = atlas.clipFromWorld(tile, view.eye()) * glm::dvec4(point - view.eye(), 1);
             const glm::dvec2 drawn =
                 (glm::dvec2(clip) / clip.w + 1.0) * (tile.size / 2.0) + glm::dvec2(tile.corner);
             EXPECT_NEAR(drawn.x, double{face.x} + double{face.z} * a, 1e-3);

@@ -50,8 +50,8 @@ struct Case {
         return view.right() * (x * side * view.width / view.height) + view.up() * (y * side) -
                view.backward() * depth;
     }
-    glm::dvec3 clip(const CascadeArea& area, const glm::dvec3& place) const {
-        return cascades.clipFromWorld(area, request.size, view.eye()) * glm::dvec4(place, 1);
+    glm::dvec3 clip(const CascadeArea& area, const glm::dvec3& position) const {
+        return cascades.clipFromWorld(area, request.size, view.eye()) * glm::dvec4(position, 1);
     }
     ReceiverMask mask(const CascadeArea& area, const std::vector<VisibleBox>& seen,
                       bool compares = true) const {

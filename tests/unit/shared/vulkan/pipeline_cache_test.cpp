@@ -60,8 +60,8 @@ private:
 }  // namespace
 
 TEST(PipelineCache, WhatIsKeptComesBackUnderTheSameKey) {
-    const fs::path place = folder();
-    const fs::path file = pipelineCacheFile(place / "made" / "for it", someKey());
+    const fs::path target = folder();
+    const fs::path file = pipelineCacheFile(target / "made" / "for it", someKey());
     EXPECT_TRUE(readPipelineCache(file, someKey()).empty());
     for (const std::size_t count : {1000u, 10u, 0u}) {
         ASSERT_TRUE(writePipelineCache(file, someKey(), someData(count)));
@@ -71,8 +71,8 @@ TEST(PipelineCache, WhatIsKeptComesBackUnderTheSameKey) {
 }
 
 TEST(PipelineCache, AnotherDriverDeviceOrProgramGetsNothing) {
-    const fs::path place = folder();
-    const fs::path file = place / "pipelines";
+    const fs::path target = folder();
+    const fs::path file = target / "pipelines";
     ASSERT_TRUE(writePipelineCache(file, someKey(), someData(100)));
     using Change = std::function<void(PipelineCacheKey&)>;
     const std::vector<Change> others{
@@ -88,14 +88,14 @@ TEST(PipelineCache, AnotherDriverDeviceOrProgramGetsNothing) {
         others[i](other);
         EXPECT_TRUE(readPipelineCache(file, other).empty()) << i;
         // Another program's file is overwritten, another driver's file stays.
-        EXPECT_EQ(pipelineCacheFile(place, other) == pipelineCacheFile(place, someKey()), i == 1) << i;
+        EXPECT_EQ(pipelineCacheFile(target, other) == pipelineCacheFile(target, someKey()), i == 1) << i;
     }
     EXPECT_FALSE(readPipelineCache(file, someKey()).empty());
 }
 
 TEST(PipelineCache, DamagedFilesAreIgnoredAndWrittenOver) {
-    const fs::path place = folder();
-    const fs::path file = place / "pipelines";
+    const fs::path target = folder();
+    const fs::path file = target / "pipelines";
     ASSERT_TRUE(writePipelineCache(file, someKey(), someData(100)));
     const std::string whole = contentsOf(file);
     const auto readWith = [&](const std::string& contents) {
@@ -127,13 +127,13 @@ TEST(PipelineCache, AFileIsOfThisUserAlone) {
 }
 
 TEST(PipelineCache, WhatCannotBeWrittenIsNoError) {
-    const fs::path place = folder();
-    std::ofstream(place / "file") << "no folder";
-    EXPECT_FALSE(writePipelineCache(place / "file" / "pipelines", someKey(), someData(5)));
-    fs::create_directory(place / "pipelines");
-    EXPECT_FALSE(writePipelineCache(place / "pipelines", someKey(), someData(5)));
-    EXPECT_TRUE(readPipelineCache(place / "pipelines", someKey()).empty());
-    EXPECT_EQ(namesIn(place), (std::vector<std::string>{"file", "pipelines"})) << "a temporary file stays";
+    const fs::path target = folder();
+    std::ofstream(target / "file") << "no folder";
+    EXPECT_FALSE(writePipelineCache(target / "file" / "pipelines", someKey(), someData(5)));
+    fs::create_directory(target / "pipelines");
+    EXPECT_FALSE(writePipelineCache(target / "pipelines", someKey(), someData(5)));
+    EXPECT_TRUE(readPipelineCache(target / "pipelines", someKey()).empty());
+    EXPECT_EQ(namesIn(target), (std::vector<std::string>{"file", "pipelines"})) << "a temporary file stays";
 }
 
 TEST(PipelineCache, TheFolderIsTheUsersAsTheXdgSpecificationHasIt) {
