@@ -17,8 +17,8 @@ constexpr std::size_t maxAdded = 16;  // refinement steps of a quantity
 constexpr double agreement = 2;
 
 // The steps in order of distance from the default one.
-BreakingPoint breakingPointOf(const Criterion& criterion, const std::vector<Step>& steps, std::size_t series,
-                              std::size_t original, int way) {
+BreakingPoint breakingPointOf(const BreakCriterion& criterion, const std::vector<Step>& steps,
+                              std::size_t series, std::size_t original, int way) {
     BreakingPoint point{.last = steps[original].magnitude};
     for (auto i = static_cast<std::ptrdiff_t>(original) + way; i >= 0 && i < std::ssize(steps); i += way) {
         const Step& step = steps[static_cast<std::size_t>(i)];
@@ -69,14 +69,14 @@ std::optional<double> nextMagnitude(const QuantityAudit& audit) {
 
 }  // namespace
 
-const std::array<Criterion, criterionCount> criteria{{
+const std::array<BreakCriterion, criterionCount> criteria{{
     {"1e-3", "error below 1e-3", 1e-3, [](const Outcome& outcome) { return outcome.error(); }},
     {"1e-2", "error below 1e-2", 1e-2, [](const Outcome& outcome) { return outcome.error(); }},
     {"visible", "not visible", 0.05, [](const Outcome& outcome) { return outcome[Measure::flip]; }},
     {"finite", "all finite", 0.5, [](const Outcome& outcome) { return outcome[Measure::nonfinite_pixels]; }},
 }};
 
-bool passes(const Criterion& criterion, const Outcome& outcome) {
+bool passes(const BreakCriterion& criterion, const Outcome& outcome) {
     return criterion.metric(outcome) < criterion.limit;
 }
 

@@ -18,18 +18,18 @@
 namespace diptych::audit {
 
 // A criterion that a path's image must meet.
-struct Criterion {
+struct BreakCriterion {
     std::string_view name, title;  // "1e-3", "error below 1e-3"
     double limit;
     double (*metric)(const Outcome&);
 };
 // Error below 1e-3 and below 1e-2; not visible (mean HDR-FLIP below 0.05); and every pixel finite.
 inline constexpr std::size_t criterionCount = 4;
-extern const std::array<Criterion, criterionCount> criteria;
+extern const std::array<BreakCriterion, criterionCount> criteria;
 inline constexpr std::size_t requiredCriterion = 1;  // the criterion of --require
 inline constexpr std::size_t visibleCriterion = 2, numberCriterion = 3;
 
-bool passes(const Criterion& criterion, const Outcome& outcome);
+bool passes(const BreakCriterion& criterion, const Outcome& outcome);
 
 // How far one way a criterion is met, starting at the default magnitude.
 struct BreakingPoint {

@@ -33,7 +33,7 @@ std::string rangeOf(std::optional<double> from, std::optional<double> to) {
 output::Table rangesOf(std::span<const QuantityAudit> all) {
     output::Table table{{{"quantity", Column::words, 0, Column::page}, {"settings"}}, {}, true};
     table.indent = 2;
-    for (const Criterion& criterion : criteria) table.columns.push_back({std::string(criterion.title)});
+    for (const BreakCriterion& criterion : criteria) table.columns.push_back({std::string(criterion.title)});
     for (const char* title : {"predicted, 1e-3", "predicted, 1e-2"})
         table.columns.push_back({title, Column::words, 0, Column::page});
     for (const QuantityAudit& of : all)

@@ -48,7 +48,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     const std::optional<Broken> broken = firstBroken(of, subject);
     if (!broken) return;
     const Series& series = of.series[broken->series];
-    const Criterion& criterion = criteria[broken->criterion];
+    const BreakCriterion& criterion = criteria[broken->criterion];
     Case pushed = subject.original;
     of.quantity->push(pushed, subject, broken->magnitude);
     const auto test = [&](const Case& candidate) {

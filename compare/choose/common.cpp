@@ -22,7 +22,7 @@ Settings withoutCamera(Settings settings) {
 
 class CommonSearch {
 public:
-    CommonSearch(std::span<const Choice* const> own,
+    CommonSearch(std::span<const SettingsChoice* const> own,
                  const std::function<Evaluator&(std::size_t)>& evaluatorOf, const CommonOptions& options)
         : own_(own), evaluatorOf_(evaluatorOf), options_(options), budget_(options.budget) {}
 
@@ -65,7 +65,7 @@ private:
 
     // A scene's proposals, most wanted first: each path's first candidate, the scene's choice, its most
     // accurate candidate, then other fitting ones, fastest first. Other scenes may need the accurate one.
-    std::vector<std::vector<std::size_t>> tiersOf(const Choice& choice) const {
+    std::vector<std::vector<std::size_t>> tiersOf(const SettingsChoice& choice) const {
         std::vector<std::vector<std::size_t>> tiers(3);
         std::vector<Path> paths;
         std::optional<std::size_t> accurate;
@@ -278,7 +278,7 @@ private:
                 found_.nearest_scene = scene;
     }
 
-    std::span<const Choice* const> own_;
+    std::span<const SettingsChoice* const> own_;
     const std::function<Evaluator&(std::size_t)>& evaluatorOf_;
     const CommonOptions& options_;
     const Budget& budget_;
@@ -288,7 +288,7 @@ private:
 
 }  // namespace
 
-CommonChoice chooseForAll(std::span<const Choice* const> own,
+CommonChoice chooseForAll(std::span<const SettingsChoice* const> own,
                           const std::function<Evaluator&(std::size_t)>& evaluatorOf,
                           const CommonOptions& options) {
     return CommonSearch(own, evaluatorOf, options).run();

@@ -43,7 +43,7 @@ struct CommonChoice : Outcome {
 
 // `own`: choices of at least one scene for this budget. `evaluatorOf`: evaluator of a scene by index, valid
 // until the next call. Throws what evaluators throw.
-CommonChoice chooseForAll(std::span<const Choice* const> own,
+CommonChoice chooseForAll(std::span<const SettingsChoice* const> own,
                           const std::function<Evaluator&(std::size_t)>& evaluatorOf,
                           const CommonOptions& options);
 

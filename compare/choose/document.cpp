@@ -194,7 +194,7 @@ output::Box outcomeBox(const Report& report, const std::string& metrics, const S
 
 // The chosen candidate first, then raced ones, then judged ones; each group by time.
 Table candidateTable(const ChoiceReport& report) {
-    const Choice& choice = report.choice;
+    const SettingsChoice& choice = report.choice;
     std::vector<std::size_t> order(choice.candidates.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
@@ -254,7 +254,7 @@ double endOf(const Candidate& candidate, double TimeRatio::*end) {
 // SVG of error over time for all judged and timed candidates. Shows time intervals of raced candidates, the
 // budget and the Pareto front. Both axes are logarithmic; errors of 0 and infinity get their own lanes.
 std::string plotOf(const ChoiceReport& report, PlotTarget place) {
-    const Choice& choice = report.choice;
+    const SettingsChoice& choice = report.choice;
     const std::string_view metric = titleOf(report.budget.metric);
     PlotPanel panel{.across = {"time of a frame, ms"},
                     .up = {fmt::format("{} against the reference", metric)}};
@@ -295,7 +295,7 @@ std::string plotOf(const ChoiceReport& report, PlotTarget place) {
 }  // namespace
 
 std::string whyText(const ChoiceReport& report) {
-    const Choice& choice = report.choice;
+    const SettingsChoice& choice = report.choice;
     if (!choice.chosen) return {};
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const bool forSpeed = report.budget.isForSpeed();
@@ -323,7 +323,7 @@ std::string whyText(const ChoiceReport& report) {
 }
 
 std::vector<Block> blocksOf(const ChoiceReport& report) {
-    const Choice& choice = report.choice;
+    const SettingsChoice& choice = report.choice;
     std::string metrics;
     Sentences lines;
     if (const std::optional<std::size_t> shown = choice.shown()) {

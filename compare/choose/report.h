@@ -45,7 +45,7 @@ struct ChoiceReport : AnyReport {
     std::string scene;
     std::vector<std::string> cameras;  // titles
     ReportDevice device;
-    Choice choice;
+    SettingsChoice choice;
     std::vector<HeldOutCamera> held_out;  // other cameras of the scene
     std::vector<std::string> notes{};
     std::optional<SensitivityReport> sensitivities{};

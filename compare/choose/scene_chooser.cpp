@@ -136,8 +136,8 @@ SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const St
     return *loaded_;
 }
 
-Choice SceneChooser::search(LoadedScene& loaded, const Settings& requested,
-                            const std::vector<Settings>& candidates, const Stage& progress) const {
+SettingsChoice SceneChooser::search(LoadedScene& loaded, const Settings& requested,
+                                    const std::vector<Settings>& candidates, const Stage& progress) const {
     SearchOptions options;
     options.budget = question_.budget;
     options.changes = singleChanges(candidates);
@@ -208,7 +208,7 @@ void SceneChooser::describe(AnyReport& report, Settings& candidate, const std::s
 
 std::optional<SensitivityReport> SceneChooser::sensitivityOf(LoadedScene& loaded, const ChoiceReport& report,
                                                              const Stage& progress) {
-    const Choice& choice = report.choice;
+    const SettingsChoice& choice = report.choice;
     const Candidate& chosen = choice.candidates[*choice.chosen];
     const Path chosen_path = chosen.settings.path;
     // The other path's best candidate, or its most accurate one if none fits the budget.
@@ -257,7 +257,7 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
 CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports) {
     const Clock::time_point start = Clock::now();
     const Stage stage(progress_, fmt::format("all {} scenes", reports.size()));
-    std::vector<const Choice*> own;
+    std::vector<const SettingsChoice*> own;
     CommonReport all;
     for (const ChoiceReport& report : reports) {
         own.push_back(&report.choice);

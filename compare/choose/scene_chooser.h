@@ -46,8 +46,8 @@ private:
     struct LoadedScene;  // a scene, read and uploaded
     LoadedScene& load(const std::string& scene, const Stage& progress);
     // `given`: Settings that candidates change.
-    Choice search(LoadedScene& loaded, const Settings& requested, const std::vector<Settings>& candidates,
-                  const Stage& progress) const;
+    SettingsChoice search(LoadedScene& loaded, const Settings& requested,
+                          const std::vector<Settings>& candidates, const Stage& progress) const;
     // A candidate's words, and a command for all cameras and maybe other scenes.
     void describe(AnyReport& report, Settings& candidate, const std::string& scene) const;
     HeldOutCamera atHeldOut(LoadedScene& loaded, const Settings& truth, const ChoiceReport& report,

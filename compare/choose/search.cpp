@@ -46,7 +46,7 @@ public:
         known_ = all_.size();
     }
 
-    Choice run() {
+    SettingsChoice run() {
         measureTable();
         if (options_.combine) {
             learnChanges();
@@ -345,7 +345,7 @@ private:
     std::size_t known_ = 0;  // candidates of the table
     std::map<Path, std::size_t> firsts_;
     std::map<Change, std::optional<Effect>> effects_;
-    Choice found_;
+    SettingsChoice found_;
 };
 
 }  // namespace
@@ -366,11 +366,11 @@ double missOf(const Measures& measured, const Budget& budget) {
     return miss;
 }
 
-Choice search(std::span<const Settings> table, Evaluator& evaluator, const SearchOptions& options) {
+SettingsChoice search(std::span<const Settings> table, Evaluator& evaluator, const SearchOptions& options) {
     return Search(table, evaluator, options).run();
 }
 
-std::optional<std::size_t> bestOfOtherPath(const Choice& choice, const Budget& budget) {
+std::optional<std::size_t> bestOfOtherPath(const SettingsChoice& choice, const Budget& budget) {
     if (!choice.chosen) return {};
     const auto value = [&](std::size_t i) {
         const Candidate& candidate = choice.candidates[i];

@@ -101,16 +101,16 @@ struct Outcome : Race {
     std::optional<std::size_t> shown() const { return chosen ? chosen : nearest; }
 };
 
-struct Choice : Outcome {
+struct SettingsChoice : Outcome {
     std::vector<Candidate> candidates;
     double ms = 0;  // of the chosen or nearest one
 };
 
 // `table`: at least one candidate. The first of each path is the base of its changes. Throws what the
 // evaluator throws.
-Choice search(std::span<const Settings> table, Evaluator& evaluator, const SearchOptions& options);
+SettingsChoice search(std::span<const Settings> table, Evaluator& evaluator, const SearchOptions& options);
 
 // Best fitting candidate of the other path: the fastest, or the most accurate without an error budget.
-std::optional<std::size_t> bestOfOtherPath(const Choice& choice, const Budget& budget);
+std::optional<std::size_t> bestOfOtherPath(const SettingsChoice& choice, const Budget& budget);
 
 }  // namespace diptych::choose

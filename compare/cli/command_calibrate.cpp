@@ -28,8 +28,9 @@ void describeCalibrate(CLI::App& app, CalibrateLine& options) {
 
 // The renderer's image of the charts under one lamp type. A missing image is an error without a lamp;
 // under a lamp it means that the renderer does not support that type.
-external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const external::Renderer& renderer) {
-    external::Shown shown{lamp, external::referenceUnder(charts, lamp), {}, {}};
+external::LampFrame shownUnder(const Scene& charts, external::Lamp lamp,
+                               const external::ExternalRenderer& renderer) {
+    external::LampFrame shown{lamp, external::referenceUnder(charts, lamp), {}, {}};
     const Scene scene = external::chartsUnder(charts, lamp);
     Settings settings = external::chartSettings(lamp);
     SceneViews views(scene);
@@ -46,11 +47,11 @@ external::Shown shownUnder(const Scene& charts, external::Lamp lamp, const exter
 
 int runCalibrate(const CalibrateLine& options) {
     refuseOut(options, "calibrate");
-    const external::Renderer renderer = external::readRendererFile(options.renderer.front());
+    const external::ExternalRenderer renderer = external::readRendererFile(options.renderer.front());
     Progress progress(progressOutput(options));
     const Stage stage(progress, "calibrate");
     const Scene charts = loadScene("builtin:calibration");
-    std::vector<external::Shown> images;
+    std::vector<external::LampFrame> images;
     for (const external::Lamp lamp : external::lamps) {
         const double done =
             static_cast<double>(images.size()) / static_cast<double>(std::size(external::lamps));

@@ -108,7 +108,7 @@ void leave(const ExplainLine& options, const ImageChoice& image, const Explanati
 // The view of `ours`, rendered by the one --renderer.
 Frame drawnByOther(const ExplainLine& options, SceneViews& views, const Frame& ours, Renderer& drawing,
                    const RenderOptions& render) {
-    const external::Renderer& renderer = options.renderers.front();
+    const external::ExternalRenderer& renderer = options.renderers.front();
     external::Attempt attempt = external::drawExternally(renderer, views.scene(),
                                                          views.at(viewRequest(ours.settings)), ours.settings);
     if (!attempt.frame)

@@ -41,8 +41,8 @@ void addRenderers(CLI::App& app, RendererGroup& options, const char* does) {
 
 void resolveRenderers(RendererGroup& options) {
     for (const std::string& sentence : options.renderer_files) {
-        external::Renderer renderer = external::readRenderer(sentence);
-        if (std::ranges::count(options.renderers, renderer.name, &external::Renderer::name) > 0)
+        external::ExternalRenderer renderer = external::readRenderer(sentence);
+        if (std::ranges::count(options.renderers, renderer.name, &external::ExternalRenderer::name) > 0)
             refuse("--renderer {}: two renderers have this name; give each its own", renderer.name);
         options.renderers.push_back(std::move(renderer));
         options.renderer_texts.insert(options.renderer_texts.end(), {"--renderer", sentence});

@@ -22,7 +22,7 @@ void resolveBaseline(BaselineGroup& options);
 
 // --renderer: compare, explain, tradeoff
 struct RendererGroup {
-    std::vector<external::Renderer> renderers;
+    std::vector<external::ExternalRenderer> renderers;
     std::vector<std::string> renderer_texts;  // words of the command line that name them
     std::vector<std::string> renderer_files;  // NAME=FILE.json
 };

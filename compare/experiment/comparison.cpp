@@ -83,7 +83,7 @@ void drawExternals(SceneViews& views, const Compared& compared, ViewFrames& of,
     const SceneView& view = views.at(viewRequest(shown.settings));
     const auto all = static_cast<double>(compared.renderers.size());
     for (std::size_t i = 0; i < compared.renderers.size(); ++i) {
-        const external::Renderer& renderer = compared.renderers[i];
+        const external::ExternalRenderer& renderer = compared.renderers[i];
         if (on_step)
             on_step(fmt::format("{}: {}", renderer.name,
                                 oneLine(fmt::format("{}", fmt::join(renderer.command, " ")))));

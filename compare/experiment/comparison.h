@@ -25,7 +25,7 @@ namespace diptych::experiment {
 struct Compared {
     Path baseline = Path::deferred;  // the left panel
     bool from_file = false;          // a file's Frame replaces it
-    std::vector<external::Renderer> renderers{};
+    std::vector<external::ExternalRenderer> renderers{};
     std::vector<std::string> renderer_texts{};  // words of the command line that name them
 
     bool withReference() const { return isReference(baseline) && !from_file; }

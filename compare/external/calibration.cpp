@@ -70,8 +70,8 @@ double luminous(const glm::dvec3& radiance) {
 
 class Calibration {
 public:
-    Calibration(const Scene& charts, std::span<const Shown> images) : charts_(charts) {
-        for (const Shown& shown : images) images_[shown.lamp] = &shown;
+    Calibration(const Scene& charts, std::span<const LampFrame> images) : charts_(charts) {
+        for (const LampFrame& shown : images) images_[shown.lamp] = &shown;
         if (!images_.contains(Lamp::none) || images_.at(Lamp::none)->image.empty())
             throw std::invalid_argument("a calibration needs the picture without lamps");
     }
@@ -107,7 +107,7 @@ private:
 
     // written(): pixel value of a chart; expected(): radiance.
     std::optional<glm::dvec3> written(Lamp lamp, const std::string& chart) const {
-        const Shown& shown = *images_.at(lamp);
+        const LampFrame& shown = *images_.at(lamp);
         if (shown.image.empty()) return {};
         return shownBy(shown.truth.ids, idOf(chart), shown.image, placement_);
     }
@@ -121,7 +121,7 @@ private:
     }
 
     bool findPlaces() {
-        const Shown& shown = *images_.at(Lamp::none);
+        const LampFrame& shown = *images_.at(Lamp::none);
         std::vector<int> marks;
         for (const auto& [id, number] : chartsCalled("mark ")) marks.push_back(id);
         const std::optional<Placement> found = findPlacement(shown.truth.ids, marks, shown.image);
@@ -166,7 +166,7 @@ private:
     void findResponse() {
         std::vector<RampStep> ramp;
         for (const auto& [id, value] : chartsCalled("ramp ")) {
-            const Shown& shown = *images_.at(Lamp::none);
+            const LampFrame& shown = *images_.at(Lamp::none);
             if (const auto here = shownBy(shown.truth.ids, id, shown.image, placement_))
                 ramp.push_back({value, luminous(*here)});
         }
@@ -244,7 +244,7 @@ private:
         std::map<Lamp, double> factors;
         for (const Lamp lamp : {Lamp::directional, Lamp::point, Lamp::spot, Lamp::area}) {
             const std::optional<double> part = partOf(lamp);
-            const Shown& shown = *images_.at(lamp);
+            const LampFrame& shown = *images_.at(lamp);
             if (!part || *part < named_dark)
                 say(fmt::format("no_{}_lights", nameOf(lamp)),
                     fmt::format("{} lights are not drawn{}", nameOf(lamp),
@@ -284,7 +284,7 @@ private:
             told_all += luminous(lightFrom(charts_.environment->radiance, normalOf(name), false));
             shown_all += luminous(*shown);
         }
-        const Shown& shown = *images_.at(lamp);
+        const LampFrame& shown = *images_.at(lamp);
         if (faces.empty() || shown_all < named_dark * told_all)
             return say("no_environment", fmt::format("the environment gives no light{}",
                                                      shown.problem.empty() ? "" : ": " + shown.problem));
@@ -309,7 +309,7 @@ private:
     }
 
     const Scene& charts_;
-    std::map<Lamp, const Shown*> images_;
+    std::map<Lamp, const LampFrame*> images_;
     Placement placement_;
     std::optional<Response> response_;
     std::vector<Deviation> found_;
@@ -352,7 +352,7 @@ ChartReference referenceUnder(const Scene& charts, Lamp lamp) {
     return {std::move(frame.channels.at(Channel::lit)), std::move(frame.channels.at(Channel::material_id))};
 }
 
-std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const Shown> images) {
+std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const LampFrame> images) {
     return Calibration(charts, images).find();
 }
 

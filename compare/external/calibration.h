@@ -36,7 +36,7 @@ struct ChartReference {
 ChartReference referenceUnder(const Scene& charts, Lamp lamp);
 
 // An image of the charts, or the reason for its absence.
-struct Shown {
+struct LampFrame {
     Lamp lamp = Lamp::none;
     ChartReference truth;
     Image image;  // empty: missing
@@ -59,10 +59,10 @@ struct Deviation {
 // `images`: one per lamp, Lamp::none required. Detects deviations above 0.15 degrees of field of view,
 // 0.2 pixels of position and 12 % of intensity. Empty if there are none. Throws std::invalid_argument
 // without the image for Lamp::none.
-std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const Shown> images);
+std::vector<Deviation> deviationsOf(const Scene& charts, std::span<const LampFrame> images);
 
 // The result, for a terminal and for scripts.
-std::string describe(const Renderer& renderer, std::span<const Deviation> deviations);
-nlohmann::ordered_json toJson(const Renderer& renderer, std::span<const Deviation> deviations);
+std::string describe(const ExternalRenderer& renderer, std::span<const Deviation> deviations);
+nlohmann::ordered_json toJson(const ExternalRenderer& renderer, std::span<const Deviation> deviations);
 
 }  // namespace diptych::external

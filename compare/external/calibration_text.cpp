@@ -16,7 +16,7 @@ Json correctionsOf(std::span<const Deviation> deviations) {
 
 }  // namespace
 
-std::string describe(const Renderer& renderer, std::span<const Deviation> deviations) {
+std::string describe(const ExternalRenderer& renderer, std::span<const Deviation> deviations) {
     const std::vector<std::string> granted = describe(renderer.corrections);
     const Json corrections = correctionsOf(deviations);
     std::string out;
@@ -33,7 +33,7 @@ std::string describe(const Renderer& renderer, std::span<const Deviation> deviat
     return out;
 }
 
-Json toJson(const Renderer& renderer, std::span<const Deviation> deviations) {
+Json toJson(const ExternalRenderer& renderer, std::span<const Deviation> deviations) {
     Json json{{"schema", 1},
               {"renderer", renderer.file.string()},
               {"verdict", deviations.empty() ? "pass" : "fail"},

@@ -44,7 +44,7 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-std::vector<std::string> argumentsOf(const Renderer& renderer, const Job& job) {
+std::vector<std::string> argumentsOf(const ExternalRenderer& renderer, const Job& job) {
     std::vector<std::string> arguments = renderer.command;
     arguments.push_back(job.file.string());
     arguments.push_back(job.text.size() <= longest_argument
@@ -153,7 +153,7 @@ Frame readImage(const fs::path& file, const fs::path& after, const InputCorrecti
     return frame;
 }
 
-Attempt drawExternally(const Renderer& renderer, const Scene& scene, const SceneView& view,
+Attempt drawExternally(const ExternalRenderer& renderer, const Scene& scene, const SceneView& view,
                        const Settings& settings) {
     const fs::path root = fs::absolute(fs::temp_directory_path());
     Temporary folder(root, root / "diptych-job");

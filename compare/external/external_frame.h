@@ -25,7 +25,7 @@ struct Attempt {
 // no derived tolerance. Its notes are stderr and features that the job cannot express. A failure, a
 // timeout, and an image that is missing, old, of another size or not finite are problems. Throws
 // std::runtime_error if the job cannot be written.
-Attempt drawExternally(const Renderer& renderer, const Scene& scene, const SceneView& view,
+Attempt drawExternally(const ExternalRenderer& renderer, const Scene& scene, const SceneView& view,
                        const Settings& settings);
 
 // Reads the pixels of `file` and applies `corrections`. Throws std::runtime_error, one line without the

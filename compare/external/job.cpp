@@ -125,7 +125,7 @@ bool isFile(const Scene& scene) {
 class JobWriter {
 public:
     JobWriter(const fs::path& folder, const Scene& scene, const SceneView& view, const Settings& settings,
-              const Renderer& renderer)
+              const ExternalRenderer& renderer)
         : folder_(folder),
           scene_(scene),
           view_(view),
@@ -217,14 +217,14 @@ private:
     const Scene& scene_;
     const SceneView& view_;
     const Settings& settings_;
-    const Renderer& renderer_;
+    const ExternalRenderer& renderer_;
     const InputCorrections& corrections_;
 };
 
 }  // namespace
 
 Job writeJob(const fs::path& folder, const Scene& scene, const SceneView& view, const Settings& settings,
-             const Renderer& renderer) {
+             const ExternalRenderer& renderer) {
     return JobWriter(folder, scene, view, settings, renderer).write();
 }
 

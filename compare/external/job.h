@@ -26,6 +26,6 @@ struct Job {
 // `folder` is empty and absolute; the caller owns it. `settings`: of our image. The format is
 // compare/external/job.schema.json. Throws std::runtime_error, one line.
 Job writeJob(const std::filesystem::path& folder, const Scene& scene, const SceneView& view,
-             const Settings& settings, const Renderer& renderer);
+             const Settings& settings, const ExternalRenderer& renderer);
 
 }  // namespace diptych::external

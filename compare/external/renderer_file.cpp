@@ -164,7 +164,7 @@ std::vector<std::string_view> correctionNames() {
     return names;
 }
 
-Renderer readRendererFile(const std::filesystem::path& file) {
+ExternalRenderer readRendererFile(const std::filesystem::path& file) {
     const std::vector<unsigned char> bytes = bytesOf(file);
     return named(oneLine(file.string()), [&] {
         const nlohmann::json json = parseJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -174,7 +174,7 @@ Renderer readRendererFile(const std::filesystem::path& file) {
         fields.knownOnly(known, "a renderer");
         if (fields.number("schema", 1, 0, 1e6) != 1)
             fields.fail("schema", "must be 1, the only version that this diptych reads");
-        Renderer renderer;
+        ExternalRenderer renderer;
         renderer.file = file;
         renderer.folder = std::filesystem::absolute(file).parent_path();
         renderer.name = file.stem().string();
@@ -189,13 +189,13 @@ Renderer readRendererFile(const std::filesystem::path& file) {
     });
 }
 
-Renderer readRenderer(const std::string& words) {
+ExternalRenderer readRenderer(const std::string& words) {
     const std::size_t at = words.find('=');
     if (at == std::string::npos || at + 1 == words.size())
         fail("--renderer " + oneLine(words), "give NAME=FILE.json, e.g. three=three.json");
     const std::string name = words.substr(0, at);
     checkName(name, words);
-    Renderer renderer = readRendererFile(words.substr(at + 1));
+    ExternalRenderer renderer = readRendererFile(words.substr(at + 1));
     renderer.name = name;
     return renderer;
 }

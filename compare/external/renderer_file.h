@@ -34,7 +34,7 @@ std::vector<std::string> describe(const InputCorrections& corrections);
 // Allowed keys of "granted".
 std::vector<std::string_view> correctionNames();
 
-struct Renderer {
+struct ExternalRenderer {
     std::string name;                  // NAME of --renderer NAME=FILE.json
     std::filesystem::path file;        // as given
     std::filesystem::path folder;      // absolute folder of the file; the command's working directory
@@ -47,8 +47,8 @@ struct Renderer {
 // Parses "NAME=FILE.json". A name has letters, digits, "-", "_" and dots, and is not reserved by reports.
 // Throws std::runtime_error, one line: "--renderer three: give NAME=FILE.json", "three.json: timeout:
 // ...".
-Renderer readRenderer(const std::string& text);
+ExternalRenderer readRenderer(const std::string& text);
 // Reads a file for `diptych calibrate`. The name is the file's stem.
-Renderer readRendererFile(const std::filesystem::path& file);
+ExternalRenderer readRendererFile(const std::filesystem::path& file);
 
 }  // namespace diptych::external

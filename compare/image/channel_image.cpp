@@ -37,11 +37,11 @@ std::uint8_t srgbByte(float linear) {
 }
 
 bool isRadiance(const DebugMode& mode) {
-    if (mode.shown != Shown::by_metric) return mode.shown == Shown::radiance;
+    if (mode.shown != ShownAs::by_metric) return mode.shown == ShownAs::radiance;
     return mode.kind == ChannelKind::color && mode.error_kind == ErrorKind::relative;
 }
 bool isNormalised(const DebugMode& mode) {
-    if (mode.shown != Shown::by_metric) return mode.shown == Shown::normalised;
+    if (mode.shown != ShownAs::by_metric) return mode.shown == ShownAs::normalised;
     return mode.channel == Channel::depth || mode.channel == Channel::position ||
            mode.channel == Channel::shaded_samples || mode.channel == Channel::iridescence_ior ||
            mode.channel == Channel::iridescence_thickness ||
@@ -50,7 +50,7 @@ bool isNormalised(const DebugMode& mode) {
 }
 // Unit of a normalised channel, after a space; empty if it has none.
 const char* normalisedUnit(const DebugMode& mode) {
-    if (mode.shown != Shown::by_metric || mode.channel == Channel::iridescence_ior ||
+    if (mode.shown != ShownAs::by_metric || mode.channel == Channel::iridescence_ior ||
         mode.channel == Channel::dispersion)
         return "";
     return mode.channel == Channel::iridescence_thickness ? " nm" : " m";
@@ -80,7 +80,7 @@ Rgb8 pixelColor(const DebugMode& mode, const float* p, const ImageScale& scale) 
     };
     if (isRadiance(mode)) return display({p[0], p[1], p[2]}, scale.exposure);
     if (isHeat(mode)) return heatColor(double{p[0]} / scale.high);
-    if (mode.shown == Shown::display) return {byteOf(p[0]), byteOf(p[1]), byteOf(p[2])};
+    if (mode.shown == ShownAs::display) return {byteOf(p[0]), byteOf(p[1]), byteOf(p[2])};
     switch (mode.kind) {
         case ChannelKind::color:
             return {srgbByte(p[0]), srgbByte(p[1]), srgbByte(p[2])};
@@ -105,7 +105,7 @@ Image8 blank(const Image& like) {
 }  // namespace
 
 bool isHeat(const DebugMode& mode) {
-    return mode.shown == Shown::by_metric && mode.channel == Channel::light_count;
+    return mode.shown == ShownAs::by_metric && mode.channel == Channel::light_count;
 }
 
 double srgbFromLinear(double linear) {
@@ -184,7 +184,7 @@ ImageScale scaleFor(const DebugMode& mode, const Exposure& exposure, std::span<c
         if (low == high) high = low + 1;
         return {low, high, exposure, (mode.width == 1 ? "grey, " : "x, y, z as red, green, blue, ") + range};
     }
-    if (mode.shown == Shown::display) return {0, 1, exposure, "as stored"};
+    if (mode.shown == ShownAs::display) return {0, 1, exposure, "as stored"};
     switch (mode.kind) {
         case ChannelKind::color:
             return {0, 1, exposure, "sRGB, no exposure"};

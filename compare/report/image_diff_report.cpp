@@ -38,11 +38,11 @@ std::vector<DebugMode> modesOf(const ImageDiff& diff) {
                        .shows = ours ? known->shows : std::string_view(pair.reference_type)};
         const bool color = pair.kind == ChannelKind::color && mode.width == 3;
         if (channel->display && color)
-            mode.shown = Shown::display;
+            mode.shown = ShownAs::display;
         else if (color && (!ours || known->error_kind == ErrorKind::relative))
-            mode.shown = Shown::radiance;
+            mode.shown = ShownAs::radiance;
         else if (!ours && pair.kind != ChannelKind::id)
-            mode.shown = Shown::normalised;
+            mode.shown = ShownAs::normalised;
         modes.push_back(mode);
     }
     return modes;

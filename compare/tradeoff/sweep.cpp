@@ -182,10 +182,10 @@ void Sweep::timeAgain(const Stage& stage) {
     }
 }
 
-std::vector<SceneError> Sweep::drawExternally(std::span<const external::Renderer> renderers,
+std::vector<SceneError> Sweep::drawExternally(std::span<const external::ExternalRenderer> renderers,
                                               const std::function<void(std::size_t)>& shown) {
     std::vector<SceneError> errors;
-    for (const external::Renderer& renderer : renderers) {
+    for (const external::ExternalRenderer& renderer : renderers) {
         std::vector<Frame> frames;
         std::string problem;
         for (const Frame& reference : references_.frames) {

@@ -49,7 +49,7 @@ public:
     void draw(const std::function<void(std::size_t)>& shown);
 
     // Adds a row for each external renderer, over all cameras. Returns the errors of those that failed.
-    std::vector<SceneError> drawExternally(std::span<const external::Renderer> renderers,
+    std::vector<SceneError> drawExternally(std::span<const external::ExternalRenderer> renderers,
                                            const std::function<void(std::size_t)>& shown);
 
     // Writes the folder, removes what was kept and returns tradeoff.json.

@@ -20,7 +20,7 @@ void cycle(Value& value, std::initializer_list<Value> values) {
 }
 
 // Steps through the channels above 9, by number.
-void nextChannel(Look& look, int step) {
+void nextChannel(LookOptions& look, int step) {
     std::vector<Channel> beyond;
     for (const DebugMode& mode : debugModes())
         if (channelNumber(mode.channel) > 9) beyond.push_back(mode.channel);
@@ -30,7 +30,7 @@ void nextChannel(Look& look, int step) {
     look.mode = beyond[static_cast<std::size_t>(at)];
 }
 
-void nextLeftPanel(const std::filesystem::path& stored, Look& look) {
+void nextLeftPanel(const std::filesystem::path& stored, LookOptions& look) {
     if (stored.empty())
         cycle(look.against, {Against::paths, Against::reference});
     else

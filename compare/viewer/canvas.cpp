@@ -84,7 +84,7 @@ std::optional<PixelUnder> pixelUnder(const std::vector<PanelRect>& places, const
     return std::nullopt;
 }
 
-std::vector<std::uint8_t> composed(const Shown& shown, const CanvasRect& canvas,
+std::vector<std::uint8_t> composed(const DrawnView& shown, const CanvasRect& canvas,
                                    const std::vector<PanelRect>& places, bool bgr) {
     constexpr std::array<std::uint8_t, 4> empty{26, 26, 28, 255};
     constexpr int lineLevel = 70;

@@ -3,8 +3,8 @@
 // any zoom. Needs no window or device.
 #pragma once
 
-#include "compare/viewer/order.h"
-#include "compare/viewer/shown.h"
+#include "compare/viewer/request.h"
+#include "compare/viewer/result.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -61,7 +61,7 @@ std::optional<PixelUnder> pixelUnder(const std::vector<PanelRect>& places, const
 // The canvas's pixels, 4 bytes each, alpha 255, row 0 on top. From `gridFrom` on, lines separate image
 // pixels.
 inline constexpr double gridFrom = 8, valuesFrom = 64;  // window pixels per image pixel
-std::vector<std::uint8_t> composed(const Shown& shown, const CanvasRect& canvas,
+std::vector<std::uint8_t> composed(const DrawnView& shown, const CanvasRect& canvas,
                                    const std::vector<PanelRect>& places, bool bgr);
 
 }  // namespace diptych::viewer

@@ -26,7 +26,7 @@ struct DrawingThread::State {
 DrawingThread::DrawingThread(DrawingOptions options) : state_(std::make_unique<State>(std::move(options))) {}
 DrawingThread::~DrawingThread() = default;
 
-std::uint64_t DrawingThread::ask(Order order) {
+std::uint64_t DrawingThread::ask(DrawRequest order) {
     Mailbox& mailbox = state_->mailbox;
     std::uint64_t number = 0;
     mailbox.request([&] {
@@ -50,7 +50,7 @@ std::string DrawingThread::saved() {
     return std::exchange(state_->mailbox.saved, {});
 }
 
-std::shared_ptr<const Shown> DrawingThread::shown() const {
+std::shared_ptr<const DrawnView> DrawingThread::shown() const {
     return state_->mailbox.get(&Mailbox::shown);
 }
 std::shared_ptr<const EvaluatedPair> DrawingThread::evaluated() const {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "compare/viewer/drawing_options.h"
-#include "compare/viewer/shown.h"
+#include "compare/viewer/result.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -23,14 +23,14 @@ public:
 
     // Replaces the request. Work for an earlier request that is no longer needed stops at its next step.
     // Returns the number given to the request.
-    std::uint64_t ask(Order order);
+    std::uint64_t ask(DrawRequest order);
 
     // Writes the visible channel of both paths as PNG and all channels as EXR, NAME.deferred.png and so
     // on, for the last request. Never overwrites files.
     void save(const std::filesystem::path& folder);
     std::string saved();  // one line, once: files written by save(), or its error; empty: nothing new
 
-    std::shared_ptr<const Shown> shown() const;  // nullptr before the first image
+    std::shared_ptr<const DrawnView> shown() const;  // nullptr before the first image
     std::shared_ptr<const EvaluatedPair> evaluated() const;
     std::shared_ptr<const Breakdown> breakdown() const;
     std::shared_ptr<const SceneProperties> properties() const;  // of the loaded scene; nullptr: none

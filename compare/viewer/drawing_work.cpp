@@ -277,10 +277,10 @@ private:
 
     void show(const std::array<const Frame*, 2>& now, const Size& size, bool passing,
               Clock::time_point start) {
-        auto next = std::make_shared<Shown>();
+        auto next = std::make_shared<DrawnView>();
         next->order = order_;
         next->size = size;
-        const Look& look = order_.look;
+        const LookOptions& look = order_.look;
         const std::size_t right = order_.subject.settings.path == drawn_paths[0] ? 0 : 1;
         const Frame &test = *now.at(right), &other = *now.at(1 - right);
         const bool traced = look.against == Against::reference && !passing;
@@ -318,8 +318,8 @@ private:
     // ---- results beside a still image -----------------------------------------------------------------
 
     // The image shown, with the present facts of the paths.
-    std::shared_ptr<const Shown> shownWithProperties() const {
-        auto next = std::make_shared<Shown>(*box_.shown);
+    std::shared_ptr<const DrawnView> shownWithProperties() const {
+        auto next = std::make_shared<DrawnView>(*box_.shown);
         next->paths = paths_;
         return next;
     }
@@ -455,8 +455,8 @@ private:
 
     const DrawingOptions& options_;
     Mailbox& box_;
-    Order order_;   // the current request
-    Subject both_;  // the same, independent of the right panel's path
+    DrawRequest order_;  // the current request
+    Subject both_;       // the same, independent of the right panel's path
     // Deferred, forward+, of `drawn_`; those of a verdict point into its report.
     std::array<std::shared_ptr<const Frame>, 2> frames_;
     std::optional<Subject> drawn_;  // still and at full size
@@ -469,7 +469,7 @@ private:
     ImageCost cost_;                    // of moving images, once their pipelines exist
     std::size_t compiled_ = 0;          // number of pipelines after the last image
     std::optional<Exposure> exposure_;  // of the last still image
-    Look exposure_of_;
+    LookOptions exposure_of_;
     int recoveries_ = 0;
     std::uint64_t of_lost_devices_ = 0;  // messages of the validation layers
     Progress progress_;                  // throws Superseded if the work is no longer needed

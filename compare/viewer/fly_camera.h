@@ -2,7 +2,7 @@
 // An interactive camera, expressed as --camera text so that any view can be reproduced.
 #pragma once
 
-#include "compare/viewer/order.h"
+#include "compare/viewer/request.h"
 #include "shared/frame/frame.h"
 #include "shared/image/image.h"
 #include "shared/scene/view.h"

@@ -140,12 +140,12 @@ std::array<std::uint8_t, 3> signedColor(double t) {
             static_cast<std::uint8_t>(std::lround(end[2] * size))};
 }
 
-Exposure exposureOf(const Frame& left, const Frame& right, const Look& look) {
+Exposure exposureOf(const Frame& left, const Frame& right, const LookOptions& look) {
     const Frame& frame = findChannel(left, Channel::lit) ? left : right;
     return exposureFor(look.image(), findChannel(frame, Channel::lit), coverage(frame, frame));
 }
 
-DifferencePanel differenceOf(const Frame& left, const Frame& right, const Look& look) {
+DifferencePanel differenceOf(const Frame& left, const Frame& right, const LookOptions& look) {
     const DebugMode& mode = debugMode(look.channel());
     const Image *const baseline = findChannel(left, look.channel()), *const test =
                                                                          findChannel(right, look.channel());
@@ -169,8 +169,8 @@ DifferencePanel differenceOf(const Frame& left, const Frame& right, const Look& 
     return panel;
 }
 
-void makeImages(const Frame& left, const Frame& right, const Look& look, const Exposure& exposure,
-                Shown& shown) {
+void makeImages(const Frame& left, const Frame& right, const LookOptions& look, const Exposure& exposure,
+                DrawnView& shown) {
     const DebugMode& mode = debugMode(look.channel());
     std::vector<const Frame*> having;
     for (const Frame* frame : {&left, &right})

@@ -174,7 +174,7 @@ void foot(InterfaceState& state, const Contents& contents, const std::vector<Pan
 
 void titles(const InterfaceState& state, const Contents& contents, const std::vector<PanelRect>& places,
             float scale) {
-    const Shown& shown = *contents.shown;
+    const DrawnView& shown = *contents.shown;
     for (const PanelRect& place : places) {
         const float x = static_cast<float>(place.rect.x) + 8 * scale,
                     y = static_cast<float>(place.rect.y) + 6 * scale;
@@ -247,7 +247,7 @@ void legend(const CanvasRect& canvas, float scale, const Color& color,
 
 void legends(const Contents& contents, const CanvasRect& canvas, const std::vector<PanelRect>& places,
              float scale) {
-    const Shown& shown = *contents.shown;
+    const DrawnView& shown = *contents.shown;
     const bool of_difference = !places.empty() && places.front().panel == 2;
     if (shown.difference && of_difference) {
         if (!shown.difference->missing.empty()) return;
@@ -278,7 +278,7 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
 
 // Writes values into large pixels.
 void values(const Contents& contents, const std::vector<PanelRect>& places, float scale) {
-    const Shown& shown = *contents.shown;
+    const DrawnView& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
     for (const PanelRect& place : places) {
         const auto [left, top, size] = place.placement;
@@ -324,7 +324,7 @@ std::optional<Projected> project(const View& view, const glm::dvec3& world, cons
 
 // A circle of the light's range, and the light's position.
 void lights(const Contents& contents, const std::vector<PanelRect>& places, float scale) {
-    const Shown& shown = *contents.shown;
+    const DrawnView& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
     for (const PanelRect& place : places) {

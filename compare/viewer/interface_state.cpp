@@ -62,7 +62,7 @@ std::string valueText(const Image& image, int x, int y) {
 
 std::string belowText(const Contents& contents) {
     if (!contents.under || !contents.shown) return "no pixel under the cursor";
-    const Shown& shown = *contents.shown;
+    const DrawnView& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
     const auto [x, y] = contents.under->pixel;
     std::string words = fmt::format("{},{}", x, y);

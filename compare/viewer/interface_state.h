@@ -4,8 +4,8 @@
 
 #include "compare/viewer/canvas.h"
 #include "compare/viewer/drawing_thread.h"
-#include "compare/viewer/order.h"
-#include "compare/viewer/shown.h"
+#include "compare/viewer/request.h"
+#include "compare/viewer/result.h"
 
 #include <array>
 #include <cstddef>
@@ -34,7 +34,7 @@ struct InterfaceState {
     Subject subject;
     std::string
         loaded;  // the rendered scene; differs from the subject's while that is read or cannot be read
-    Look look;
+    LookOptions look;
     std::filesystem::path stored;  // file that T shows in the left panel; empty: none
     CanvasView canvas;
     bool follow = true;  // images are as large as the canvas
@@ -63,7 +63,7 @@ struct InterfaceState {
 
 // The results to show.
 struct Contents {
-    std::shared_ptr<const Shown> shown;
+    std::shared_ptr<const DrawnView> shown;
     std::shared_ptr<const EvaluatedPair> evaluated;
     std::shared_ptr<const Breakdown> breakdown;
     std::shared_ptr<const SceneProperties> properties;

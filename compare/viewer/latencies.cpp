@@ -17,7 +17,7 @@ double secondsFrom(Latencies::Clock::time_point from, Latencies::Clock::time_poi
 
 }  // namespace
 
-bool isWhole(const Shown& shown) {
+bool isWhole(const DrawnView& shown) {
     return shown.size == shown.order.subject.settings.size;
 }
 
@@ -33,7 +33,7 @@ void Latencies::asked(std::uint64_t order) {
         if (waiting.order == 0) waiting.order = order;
 }
 
-void Latencies::seen(const Shown& shown, std::uint64_t order) {
+void Latencies::seen(const DrawnView& shown, std::uint64_t order) {
     const Clock::time_point now = Clock::now();
     const auto sayImage = [&](bool& said, std::string_view what) {
         if (std::exchange(said, true)) return;

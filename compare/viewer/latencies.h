@@ -3,7 +3,7 @@
 // frames.
 #pragma once
 
-#include "compare/viewer/shown.h"
+#include "compare/viewer/result.h"
 
 #include <chrono>
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace diptych::viewer {
 
 // Whether an image has the requested size; images are smaller while something moves.
-bool isWhole(const Shown& shown);
+bool isWhole(const DrawnView& shown);
 
 class Latencies {
 public:
@@ -29,7 +29,7 @@ public:
     // Earlier key presses become visible with this request's image.
     void asked(std::uint64_t order);
     // The image is in the window; `order` is the latest request.
-    void seen(const Shown& shown, std::uint64_t order);
+    void seen(const DrawnView& shown, std::uint64_t order);
 
     // Duration of one frame of the interface.
     void frame(double ms);

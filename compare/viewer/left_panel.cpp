@@ -13,7 +13,7 @@ namespace {
 // Interval between updates of the reference.
 constexpr std::chrono::milliseconds referencePause{200};
 
-bool showsReference(const Order& order) {
+bool showsReference(const DrawRequest& order) {
     return order.look.against == Against::reference && !order.moving;
 }
 
@@ -22,8 +22,9 @@ bool showsReference(const Order& order) {
 LeftPanel::LeftPanel(Mailbox& mailbox)
     : reference_([this, &mailbox] { mailbox.request([this] { more_ = true; }); }) {}
 
-std::pair<std::shared_ptr<const Frame>, double> LeftPanel::reference(const Order& order, PairRenderer& pair,
-                                                                     const Stage& stage, const Frame& under) {
+std::pair<std::shared_ptr<const Frame>, double> LeftPanel::reference(const DrawRequest& order,
+                                                                     PairRenderer& pair, const Stage& stage,
+                                                                     const Frame& under) {
     Settings wanted = referenceSettings(order.subject.settings);
     if (const auto problem = wanted.problem()) throw std::runtime_error(*problem);
     if (reference_.settings() != wanted || reference_scene_ != pair.scene()) {
@@ -54,13 +55,13 @@ std::shared_ptr<const Frame> LeftPanel::storedFrame(const std::filesystem::path&
     return stored_->second;
 }
 
-void LeftPanel::stopUnneeded(const Order& order) {
+void LeftPanel::stopUnneeded(const DrawRequest& order) {
     if (reference_.done() < 1 &&
         !(showsReference(order) && reference_.settings() == referenceSettings(order.subject.settings)))
         reference_.stop();
 }
 
-bool LeftPanel::hasMore(const Order& order) const {
+bool LeftPanel::hasMore(const DrawRequest& order) const {
     return more_ && showsReference(order);
 }
 
@@ -68,7 +69,7 @@ LeftPanel::Clock::time_point LeftPanel::nextUpdate() const {
     return reference_shown_ + referencePause;
 }
 
-bool LeftPanel::isUpdateDue(const Order& order) const {
+bool LeftPanel::isUpdateDue(const DrawRequest& order) const {
     return hasMore(order) && (reference_.done() >= 1 || Clock::now() >= nextUpdate());
 }
 

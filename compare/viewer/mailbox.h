@@ -2,7 +2,7 @@
 // The interface's requests and the drawing thread's results, behind one mutex.
 #pragma once
 
-#include "compare/viewer/shown.h"
+#include "compare/viewer/result.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -25,12 +25,12 @@ struct Mailbox {
     std::condition_variable signal;  // wakes the drawing thread
 
     bool stopping = false;
-    std::optional<Order> wanted;
+    std::optional<DrawRequest> wanted;
     std::optional<std::filesystem::path> save_to;
 
     bool waiting = false;  // the request is complete
     std::string saved;
-    std::shared_ptr<const Shown> shown;
+    std::shared_ptr<const DrawnView> shown;
     std::shared_ptr<const EvaluatedPair> evaluated;
     std::shared_ptr<const Breakdown> breakdown;
     std::shared_ptr<const SceneProperties> properties;

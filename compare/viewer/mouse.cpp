@@ -114,7 +114,7 @@ void Mouse::wheel(const Input& input, const std::vector<PanelRect>& places) {
 glm::dvec3 Mouse::pivotAt(const std::vector<PanelRect>& places, double x, double y) const {
     const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
     const auto under = pixelUnder(places, state_.subject.settings.size, x, y);
-    const std::shared_ptr<const Shown>& shown = contents_.shown;
+    const std::shared_ptr<const DrawnView>& shown = contents_.shown;
     if (!under || !shown || shown->depth.empty() ||
         ofBothPaths(shown->order.subject) != ofBothPaths(state_.subject))
         return ahead;

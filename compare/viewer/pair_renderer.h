@@ -4,7 +4,7 @@
 
 #include "compare/render/renderer.h"
 #include "compare/run/progress.h"
-#include "compare/viewer/order.h"
+#include "compare/viewer/request.h"
 #include "shared/vulkan/device.h"
 
 #include <array>

@@ -119,7 +119,7 @@ float timesHeight(const Contents& contents) {
 
 // Times and memory of both paths.
 void times(const Contents& contents) {
-    const Shown& shown = *contents.shown;
+    const DrawnView& shown = *contents.shown;
     ImGui::Separator();
     const bool small = shown.size.width != shown.order.subject.settings.size.width;
     ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", reduced while moving" : "");

@@ -2,7 +2,7 @@
 // Properties of the scene and of a path's last frame, for the interface.
 #pragma once
 
-#include "compare/viewer/shown.h"
+#include "compare/viewer/result.h"
 
 #include <string>
 

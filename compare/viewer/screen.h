@@ -37,7 +37,7 @@ private:
 
     // Identifies the content of the window's pixels.
     struct Composed {
-        std::shared_ptr<const Shown> shown;
+        std::shared_ptr<const DrawnView> shown;
         CanvasRect canvas;
         CanvasView view;
         bool difference = false;

@@ -9,7 +9,8 @@
 
 namespace diptych::viewer {
 
-std::string writeScreenshot(PairRenderer& pair, const Order& order, const std::filesystem::path& folder) {
+std::string writeScreenshot(PairRenderer& pair, const DrawRequest& order,
+                            const std::filesystem::path& folder) {
     pair.views().clear();  // of intermediate cameras
     RenderOptions render = channelOptions(everyChannel());
     render.requested = everyChannel();

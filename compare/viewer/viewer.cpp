@@ -159,7 +159,7 @@ private:
     }
 
     void takeImages() {
-        const Shown& shown = *contents_.shown;
+        const DrawnView& shown = *contents_.shown;
         for (std::size_t i = 0; i < 2; ++i) histories_.at(isWhole(shown)).at(i).add(shown.paths[i]);
         const std::string& asked = state_.subject.settings.camera;
         if (shown.order.subject.settings.camera == asked && asked != own_camera_ &&
@@ -473,7 +473,7 @@ private:
     FlyCamera camera_;
     std::string own_camera_ = "none taken yet";  // --camera text of camera_
     SceneWatch watch_;
-    Order order_;                                                 // the latest request
+    DrawRequest order_;                                           // the latest request
     std::uint64_t said_still_ = 0;                                // the last request reported as complete
     double now_ = 0, last_ = 0, moving_until_ = 0, watched_ = 0;  // s since begun_
     double changed_ = -1;                                         // time of the last change of the subject

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "compare/verdict/comparison.h"
-#include "compare/viewer/order.h"
+#include "compare/viewer/request.h"
 #include "shared/vulkan/device.h"
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace diptych::viewer {
 
 struct ViewerOptions {
     Subject subject;  // shown first
-    Look look;
+    LookOptions look;
     bool size_requested = false;         // false: images fill the window
     std::optional<PixelPosition> pixel;  // the pixel to break down and zoom to
     bool watch = false;                  // reload a scene when its files change

@@ -48,7 +48,7 @@ struct ChannelCode {
 };
 
 // How a channel is shown as an image; by_metric: by its kind and metric.
-enum class Shown { by_metric, radiance, display, normalised };
+enum class ShownAs { by_metric, radiance, display, normalised };
 
 struct DebugMode {
     Channel channel;
@@ -63,7 +63,7 @@ struct DebugMode {
     ChannelCode stored{};
     TexelUse texels = TexelUse::none;
     int related = 0;  // place among the channels that relations compare; 0: none
-    Shown shown = Shown::by_metric;
+    ShownAs shown = ShownAs::by_metric;
 };
 
 std::span<const DebugMode> debugModes();                        // in ascending order of number

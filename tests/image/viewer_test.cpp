@@ -27,8 +27,8 @@ DrawingOptions validated() {
     return options;
 }
 
-Order orderOf(const std::string& scene, int width = 64, int height = 36) {
-    Order order;
+DrawRequest orderOf(const std::string& scene, int width = 64, int height = 36) {
+    DrawRequest order;
     order.subject.scene = scene;
     order.subject.settings.size.width = width;
     order.subject.settings.size.height = height;
@@ -45,7 +45,7 @@ bool soon(const Condition& condition) {
 }
 
 // Sends a request and waits for its complete result.
-bool isDrawn(DrawingThread& drawing, const Order& order) {
+bool isDrawn(DrawingThread& drawing, const DrawRequest& order) {
     const std::uint64_t number = drawing.ask(order);
     return soon([&] {
         const auto shown = drawing.shown();
@@ -63,7 +63,7 @@ Frame drawn(Device& device, const Scene& scene, const Settings& settings,
 
 TEST(DrawingThread, ItsPanelsAreTheImagesOfBothPaths) {
     DrawingThread drawing(validated());
-    Order order = orderOf("builtin:points");
+    DrawRequest order = orderOf("builtin:points");
     ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
     const auto shown = drawing.shown();
     const Scene scene = loadScene("builtin:points");
@@ -113,7 +113,7 @@ TEST(DrawingThread, ItsPanelsAreTheImagesOfBothPaths) {
 
 TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
     DrawingThread drawing(validated());
-    Order order = orderOf("builtin:points");
+    DrawRequest order = orderOf("builtin:points");
     order.look.against = Against::reference;
     ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
     ASSERT_TRUE(soon([&] { return drawing.shown()->reference_done >= 1 && drawing.idle(); }));
@@ -131,7 +131,7 @@ TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
 
 TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
     DrawingThread drawing(validated());
-    Order order = orderOf("builtin:points");
+    DrawRequest order = orderOf("builtin:points");
     order.pixel = PixelPosition{30, 20};
     ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
     const auto breakdown = drawing.breakdown();
@@ -155,7 +155,7 @@ TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
 
 TEST(DrawingThread, WhatMovesIsDrawnAndThenWhatStandsStill) {
     DrawingThread drawing(validated());
-    Order order = orderOf("builtin:points", 320, 180);
+    DrawRequest order = orderOf("builtin:points", 320, 180);
     order.moving = true;
     for (int i = 0; i < 20; ++i) {
         order.subject.settings.camera = "eye=0," + std::to_string(1 + 0.1 * i) + ",8 target=0,0,0";
@@ -173,10 +173,10 @@ TEST(DrawingThread, WhatMovesIsDrawnAndThenWhatStandsStill) {
 
 TEST(DrawingThread, ASceneThatCannotBeReadLeavesTheOldOne) {
     DrawingThread drawing(validated());
-    Order order = orderOf("builtin:points");
+    DrawRequest order = orderOf("builtin:points");
     ASSERT_TRUE(isDrawn(drawing, order));
     const auto before = drawing.shown();
-    Order broken = order;
+    DrawRequest broken = order;
     broken.subject.scene = "nowhere.glb";
     drawing.ask(broken);
     ASSERT_TRUE(soon([&] { return !drawing.status().error.empty(); }));
@@ -198,7 +198,7 @@ TEST(DrawingThread, ALostDeviceIsMadeAnew) {
         }
     };
     DrawingThread drawing(std::move(options));
-    Order order = orderOf("builtin:points");
+    DrawRequest order = orderOf("builtin:points");
     ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
     EXPECT_EQ(losses, 0);
     EXPECT_TRUE(drawing.status().error.empty());
@@ -214,7 +214,7 @@ TEST(DrawingThread, ALostDeviceIsMadeAnew) {
 
 TEST(DrawingThread, EveryChannelOfBothPathsIsThereOrSaysWhyNot) {
     DrawingThread drawing(validated());
-    Order order = orderOf("builtin:points", 32, 18);
+    DrawRequest order = orderOf("builtin:points", 32, 18);
     for (const DebugMode& mode : debugModes()) {
         order.look.mode = mode.channel;
         order.look.difference = Difference::absolute;

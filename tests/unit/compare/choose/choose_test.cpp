@@ -78,7 +78,7 @@ Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candida
         return std::ranges::count(sweep.rows, *made, &RecordedRow::settings) > 0 ? made : std::nullopt;
     };
     const std::vector<Settings> table = tableOf(candidates);
-    const Choice choice = search(table, evaluator, options);
+    const SettingsChoice choice = search(table, evaluator, options);
     // Compare the time limit with the device's speed in the middle of the race.
     double raced = 0;
     for (const Candidate& candidate : choice.candidates)
@@ -232,7 +232,7 @@ TEST(ChooseSearch, CombinesChangesThatHelpAndLeavesOutWhatExceedsTheError) {
     options.budget.error = 0.02;
     options.combine = anyOf;
     options.changes = {{first.path, "shadow-kernel", "1"}};
-    const Choice choice = search(table, evaluator, options);
+    const SettingsChoice choice = search(table, evaluator, options);
     ASSERT_TRUE(choice.chosen);
     EXPECT_NEAR(choice.ms, 100 * 0.8 * 0.9 * 0.9 * 0.7, 1e-9);
     EXPECT_EQ(choice.evaluated, evaluator.evaluated);
@@ -254,7 +254,7 @@ TEST(ChooseSearch, WhereNothingFitsTheNearestIsNamed) {
     table[2].set("shadow-size", "4096");
     SearchOptions options;
     options.budget.error = 0.001;
-    const Choice choice = search(table, evaluator, options);
+    const SettingsChoice choice = search(table, evaluator, options);
     EXPECT_FALSE(choice.chosen);
     EXPECT_EQ(choice.nearest, 2u);
     for (const Candidate& candidate : choice.candidates) EXPECT_EQ(candidate.status, CandidateStatus::misses);
@@ -271,7 +271,7 @@ TEST(ChooseSearch, TheMostAccurateWithinATime) {
     options.combine = anyOf;
     for (const auto& [max, ms] : {std::pair{110.0, 100.0}, {140.0, 130.0}, {170.0, 169.0}}) {
         options.budget.ms = max;
-        const Choice choice = search(table, evaluator, options);
+        const SettingsChoice choice = search(table, evaluator, options);
         ASSERT_TRUE(choice.chosen);
         EXPECT_NEAR(choice.ms, ms, 1e-9);
     }

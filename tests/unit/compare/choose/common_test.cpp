@@ -69,7 +69,7 @@ private:
 // Each scene's own choice among all four, then the joint choice.
 struct ForAll {
     ForAll(const std::vector<std::vector<Known>>& scenes, const Budget& budget, CommonOptions options = {}) {
-        std::vector<const Choice*> pointers;
+        std::vector<const SettingsChoice*> pointers;
         const std::vector<Settings> candidates{standardOne, forwardOne, compactOne, fullOne};
         for (const std::vector<Known>& scene : scenes) {
             labs.emplace_back(scene, 0.01, labs.size() + 1);
@@ -78,7 +78,7 @@ struct ForAll {
             own.push_back(search(candidates, labs.back(), search_options));
             labs.back().evaluated = 0;
         }
-        for (const Choice& choice : own) pointers.push_back(&choice);
+        for (const SettingsChoice& choice : own) pointers.push_back(&choice);
         options.budget = budget;
         std::vector<KnownEvaluator*> by_number;
         for (KnownEvaluator& evaluator : labs) by_number.push_back(&evaluator);
@@ -87,7 +87,7 @@ struct ForAll {
     }
     const Settings& chosen() const { return result.candidates.at(result.chosen.value()).settings; }
     std::list<KnownEvaluator> labs;
-    std::vector<Choice> own;
+    std::vector<SettingsChoice> own;
     CommonChoice result;
 };
 
@@ -167,7 +167,7 @@ TEST(ChooseForAll, WhatIsLeftOutIsCounted) {
 
 // If nothing fits the budget, a scene proposes its path's first candidate and its most accurate one.
 TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
-    Choice own;
+    SettingsChoice own;
     for (const auto& [settings, error] :
          {std::pair(compactOne, 0.5), std::pair(fullOne, 0.03), std::pair(standardOne, 0.03)}) {
         Candidate& candidate = own.candidates.emplace_back();
@@ -176,7 +176,7 @@ TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
         candidate.measured[Measure::memory] = 1000;
     }
     KnownEvaluator evaluator({});
-    const Choice* const pointer = &own;
+    const SettingsChoice* const pointer = &own;
     CommonOptions options;
     options.budget = {.error = 0.02, .ms = {}, .bytes = {}};
     const CommonChoice all = chooseForAll(

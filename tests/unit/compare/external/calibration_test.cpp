@@ -119,9 +119,9 @@ public:
     }
     const Scene& charts() const { return charts_; }
 
-    std::vector<Shown> images(const Fake& fake, unsigned seed) {
+    std::vector<LampFrame> images(const Fake& fake, unsigned seed) {
         random_.seed(seed);
-        std::vector<Shown> all;
+        std::vector<LampFrame> all;
         for (const Lamp lamp : lamps) all.push_back({lamp, truths_.at(lamp), image(fake, lamp), {}});
         return all;
     }

@@ -17,8 +17,8 @@ Image8 colored(int width, int height, std::uint8_t base) {
     return image;
 }
 
-Shown shownOf(int width, int height) {
-    Shown shown;
+DrawnView shownOf(int width, int height) {
+    DrawnView shown;
     shown.order.subject.settings.size.width = width;
     shown.order.subject.settings.size.height = height;
     shown.size = shown.order.subject.settings.size;
@@ -41,7 +41,7 @@ Rgb8Pixel inImage(const Image8& image, int x, int y) {
 }
 
 TEST(ViewerCanvas, TheWipesHalvesAreTheImagesPixels) {
-    const Shown shown = shownOf(12, 8);
+    const DrawnView shown = shownOf(12, 8);
     const CanvasRect canvas{0, 30, 12, 8};
     CanvasView view;
     view.wipe = 5.0 / 12;
@@ -59,7 +59,7 @@ TEST(ViewerCanvas, TheWipesHalvesAreTheImagesPixels) {
 }
 
 TEST(ViewerCanvas, BlueComesFirstWhereTheWindowHasItSo) {
-    const Shown shown = shownOf(2, 2);
+    const DrawnView shown = shownOf(2, 2);
     const CanvasRect canvas{0, 0, 2, 2};
     CanvasView view;
     view.layout = Layout::single;
@@ -70,7 +70,7 @@ TEST(ViewerCanvas, BlueComesFirstWhereTheWindowHasItSo) {
 
 // As wide or as high as its panel, whichever comes first, with the canvas's grey beside it.
 TEST(ViewerCanvas, AnImageFillsItsPanel) {
-    const Shown shown = shownOf(10, 5);
+    const DrawnView shown = shownOf(10, 5);
     const CanvasRect canvas{0, 0, 37, 20};
     CanvasView view;
     view.layout = Layout::single;
@@ -127,7 +127,7 @@ TEST(ViewerBar, ANarrowOneHasMoreRows) {
 }
 
 TEST(ViewerCanvas, ASmallerImageFillsTheSamePlace) {
-    Shown shown = shownOf(8, 8);
+    DrawnView shown = shownOf(8, 8);
     shown.panels[1].image = colored(4, 4, 100);
     shown.size.width = shown.size.height = 4;
     const CanvasRect canvas{0, 0, 8, 8};
@@ -142,7 +142,7 @@ TEST(ViewerCanvas, ASmallerImageFillsTheSamePlace) {
 }
 
 TEST(ViewerCanvas, LargePixelsHaveALineBetweenThem) {
-    const Shown shown = shownOf(4, 4);
+    const DrawnView shown = shownOf(4, 4);
     const CanvasRect canvas{0, 0, 40, 40};
     CanvasView view;
     view.layout = Layout::single;
@@ -155,7 +155,7 @@ TEST(ViewerCanvas, LargePixelsHaveALineBetweenThem) {
 }
 
 TEST(ViewerCanvas, NoSizeIsTooSmall) {
-    const Shown shown = shownOf(4, 4);
+    const DrawnView shown = shownOf(4, 4);
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 50}, {3, 2}})
         for (const Layout layout : {Layout::wipe, Layout::side_by_side, Layout::single})
             for (const bool difference : {false, true}) {

@@ -7,8 +7,8 @@ namespace diptych::viewer {
 namespace {
 
 // A request of 8x8 pixels, shown with `side` of them in a row.
-Shown shownAs(std::uint64_t request, int side) {
-    Shown shown;
+DrawnView shownAs(std::uint64_t request, int side) {
+    DrawnView shown;
     shown.order.number = request;
     shown.order.subject.settings.size = {8, 8};
     shown.size = {side, side};

@@ -71,7 +71,7 @@ TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
     right.channels[Channel::lit].at(0, 0, 1) = 0.75f;   // + 0.25
     right.channels[Channel::lit].at(0, 0, 2) = 0.375f;  // - 0.125, smaller
     right.channels[Channel::lit].at(1, 0, 0) = 0.0f;    // - 0.5
-    Look look;
+    LookOptions look;
     look.difference = Difference::signed_difference;
     const DifferencePanel panel = differenceOf(left, right, look);
     EXPECT_EQ(panel.values.at(0, 0), 0.25f);
@@ -85,7 +85,7 @@ TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
 
 TEST(ViewerDifference, AbsoluteAndRelativeAreTheMetrics) {
     const Frame left = flatFrame(Path::deferred, 1, 1, 0.5f), right = flatFrame(Path::deferred, 1, 1, 0.75f);
-    Look look;
+    LookOptions look;
     look.difference = Difference::absolute;
     EXPECT_EQ(differenceOf(left, right, look).values.at(0, 0), 0.25f);
     look.difference = Difference::relative;
@@ -94,7 +94,7 @@ TEST(ViewerDifference, AbsoluteAndRelativeAreTheMetrics) {
 
 TEST(ViewerDifference, FlipIsOfColoursAndSaysSo) {
     Frame left = flatFrame(Path::deferred, 16, 16, 0.5f), right = flatFrame(Path::deferred, 16, 16, 0.25f);
-    Look look;
+    LookOptions look;
     look.difference = Difference::flip;
     const DifferencePanel panel = differenceOf(left, right, look);
     EXPECT_TRUE(panel.missing.empty()) << panel.missing;
@@ -107,7 +107,7 @@ TEST(ViewerDifference, FlipIsOfColoursAndSaysSo) {
 }
 
 TEST(ViewerDifference, WhatCannotBeComparedSaysWhy) {
-    Look look;
+    LookOptions look;
     look.difference = Difference::absolute;
     EXPECT_NE(differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 3, 2, 0), look)
                   .missing.find("2x2"),
@@ -122,9 +122,9 @@ TEST(ViewerDifference, WhatCannotBeComparedSaysWhy) {
 TEST(ViewerImages, AreImagesOfTheChannel) {
     Frame left = flatFrame(Path::deferred, 3, 2, 0.5f), right = flatFrame(Path::deferred, 3, 2, 0.25f);
     left.channels[Channel::material_id].at(2, 1) = -1;
-    Look look;
+    LookOptions look;
     look.exposure = 2;
-    Shown shown;
+    DrawnView shown;
     const Exposure exposure = exposureOf(left, right, look);
     EXPECT_EQ(exposure.factor, 2);
     makeImages(left, right, look, exposure, shown);
@@ -224,7 +224,7 @@ TEST(ViewerSettings, SizeStopsFollowingTheWindow) {
 
 // As in the original projects: the heat map replaces the channel, which returns without it.
 TEST(ViewerLook, TheHeatMapTakesPrecedenceOverTheChannel) {
-    Look look;
+    LookOptions look;
     for (const DebugMode& mode : debugModes()) {
         look.mode = mode.channel;
         look.heat = true;

@@ -4,7 +4,7 @@
 
 #include "compare/explain/pixel_breakdown.h"
 #include "compare/verdict/comparison.h"
-#include "compare/viewer/order.h"
+#include "compare/viewer/request.h"
 #include "shared/image/image.h"
 #include "shared/image/png.h"
 #include "shared/scene/requirements.h"
@@ -50,8 +50,8 @@ struct PathProperties {
 };
 
 // Immutable once published.
-struct Shown {
-    Order order;                  // the request
+struct DrawnView {
+    DrawRequest order;            // the request
     Size size;                    // of the images; smaller than requested while moving
     std::array<Panel, 2> panels;  // left, right
     std::optional<DifferencePanel> difference;

@@ -45,7 +45,7 @@ inline Subject ofBothPaths(Subject subject) {
 }
 
 // View options.
-struct Look {
+struct LookOptions {
     Channel mode = Channel::lit;
     bool heat = false;  // light-count heat map instead of the chosen channel
     Against against = Against::paths;
@@ -54,16 +54,16 @@ struct Look {
     std::optional<double> exposure{};  // ImageChoice
     std::optional<double> ev100{};
     bool tonemap = true;
-    bool operator==(const Look&) const = default;
+    bool operator==(const LookOptions&) const = default;
     // The visible one.
     Channel channel() const { return heat ? Channel::light_count : mode; }
     ImageChoice image() const { return {exposure, ev100, tonemap}; }
 };
 
-struct Order {
+struct DrawRequest {
     std::uint64_t number = 0;  // increases
     Subject subject;
-    Look look;
+    LookOptions look;
     bool moving = false;                 // smaller images, and nothing else
     std::optional<PixelPosition> pixel;  // the pixel to break down
 };
