@@ -5,8 +5,8 @@
 #include "shared/draw/pipeline_keys.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/record.h"
-#include "shared/vulkan/check.h"
-#include "shared/vulkan/commands.h"
+#include "shared/vulkan/device/commands.h"
+#include "shared/vulkan/instance/check.h"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/text/counted.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "compare/bench/bench.h"
-#include "shared/vulkan/device.h"
-#include "shared/vulkan/device_compiler.h"
+#include "shared/vulkan/device/device.h"
+#include "shared/vulkan/pipelines/device_compiler.h"
 
 #include <map>
 #include <memory>

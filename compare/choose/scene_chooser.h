@@ -6,7 +6,7 @@
 #include "compare/choose/report.h"
 #include "compare/experiment/references.h"
 #include "compare/run/progress.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <cstddef>
 #include <map>

@@ -5,7 +5,7 @@
 #include "compare/cli/command.h"
 #include "compare/cli/command_line.h"
 #include "compare/files/our_files.h"
-#include "compare/viewer/keys.h"
+#include "compare/viewer/interface/keys.h"
 #include "compare/viewer/viewer.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/image_file.h"

@@ -12,7 +12,7 @@
 #include "shared/frame/settings.h"
 #include "shared/frame/sides.h"
 #include "shared/scene/model/scene.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <array>
 

@@ -11,7 +11,7 @@
 #include "shared/frame/frame.h"
 #include "shared/material/texture_probe.h"
 #include "shared/scene/model/scene.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <array>
 #include <memory>

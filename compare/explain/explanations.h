@@ -7,7 +7,7 @@
 #include "compare/run/progress.h"
 #include "compare/verdict/comparison.h"
 #include "shared/frame/sides.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <string>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/frames/device_precision.h"
 
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 namespace diptych {
 

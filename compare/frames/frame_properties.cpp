@@ -4,7 +4,7 @@
 #include "shared/contract/surface_channels.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/text/counted.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #include "compare/probe/device_rows.h"
 
 #include "compare/probe/modules.h"
-#include "shared/vulkan/pipelines.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/probe/probe.h"
-#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <vector>
 

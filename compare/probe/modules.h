@@ -2,7 +2,7 @@
 // The shaders of compare/probe/shaders as the build embeds them.
 #pragma once
 
-#include "shared/vulkan/spirv.h"
+#include "shared/vulkan/spirv/spirv.h"
 
 #include <span>
 

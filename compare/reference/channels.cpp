@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/channels.h"
 
-#include "compare/reference/material.h"
+#include "compare/reference/scene/material.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/model/axes.h"
 

@@ -2,9 +2,9 @@
 #include "compare/reference/image_key.h"
 
 #include "compare/reference/key.h"
-#include "compare/reference/material.h"
 #include "compare/reference/pixel_renderer.h"
 #include "compare/reference/request.h"
+#include "compare/reference/scene/material.h"
 #include "shared/scene/model/material_slots.h"
 
 #include <glm/vec2.hpp>

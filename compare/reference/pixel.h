@@ -2,9 +2,9 @@
 // The reference's result for one pixel, or for one sample in it.
 #pragma once
 
-#include "compare/reference/haze.h"
-#include "compare/reference/lighting.h"
-#include "compare/reference/surface.h"
+#include "compare/reference/light/haze.h"
+#include "compare/reference/light/lighting.h"
+#include "compare/reference/scattering/surface.h"
 #include "shared/frame/channel.h"
 
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "compare/reference/material.h"
+#include "compare/reference/scene/material.h"
 #include "shared/scene/view.h"
 
 #include <glm/geometric.hpp>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "compare/reference/pixel_renderer.h"
 
-#include "compare/reference/area.h"
 #include "compare/reference/channels.h"
-#include "compare/reference/punctual.h"
+#include "compare/reference/light/area.h"
+#include "compare/reference/light/punctual.h"
+#include "compare/reference/light/shadow_edge.h"
 #include "compare/reference/resolve.h"
-#include "compare/reference/sampling.h"
-#include "compare/reference/shadow_edge.h"
+#include "compare/reference/scattering/sampling.h"
 #include "shared/scene/model/axes.h"
 #include "shared/scene/model/luminance.h"
 #include "shared/scene/motion/bounds.h"

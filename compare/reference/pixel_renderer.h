@@ -2,15 +2,15 @@
 // Renders one pixel: its surfaces, light and shadows.
 #pragma once
 
-#include "compare/reference/geometry.h"
-#include "compare/reference/haze.h"
-#include "compare/reference/lighting.h"
-#include "compare/reference/material.h"
-#include "compare/reference/mesh_path.h"
+#include "compare/reference/light/haze.h"
+#include "compare/reference/light/lighting.h"
 #include "compare/reference/pixel.h"
 #include "compare/reference/pixel_rays.h"
 #include "compare/reference/request.h"
-#include "compare/reference/transmission.h"
+#include "compare/reference/scattering/transmission.h"
+#include "compare/reference/scene/geometry.h"
+#include "compare/reference/scene/material.h"
+#include "compare/reference/scene/mesh_path.h"
 
 #include <cstdint>
 #include <optional>

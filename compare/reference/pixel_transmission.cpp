@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Surfaces with transmission: the light that passes them.
-#include "compare/reference/adaptive_sampling.h"
 #include "compare/reference/pixel_renderer.h"
-#include "compare/reference/sampling.h"
-#include "compare/reference/transmission.h"
+#include "compare/reference/scattering/adaptive_sampling.h"
+#include "compare/reference/scattering/sampling.h"
+#include "compare/reference/scattering/transmission.h"
 #include "shared/scene/model/luminance.h"
 
 #include <glm/geometric.hpp>

@@ -2,8 +2,8 @@
 // The input of the reference renderer.
 #pragma once
 
-#include "compare/reference/haze.h"
-#include "compare/reference/punctual.h"
+#include "compare/reference/light/haze.h"
+#include "compare/reference/light/punctual.h"
 #include "shared/frame/channel.h"
 #include "shared/frame/settings.h"
 #include "shared/image/image.h"

@@ -4,7 +4,7 @@
 
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"
-#include "shared/vulkan/device_compiler.h"
+#include "shared/vulkan/pipelines/device_compiler.h"
 
 #include <optional>
 #include <span>

@@ -4,8 +4,8 @@
 
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"
-#include "shared/vulkan/device.h"
-#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/device/device.h"
+#include "shared/vulkan/passes/pass_list.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include "shared/draw/culling.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/scene_view.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <string>
 #include <vector>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/frame/settings.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <vector>
 

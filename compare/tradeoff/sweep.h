@@ -9,7 +9,7 @@
 #include "compare/tradeoff/sweep_state.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "shared/scene/scene_view.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <chrono>
 #include <cstddef>

@@ -3,8 +3,8 @@
 // loses.
 #pragma once
 
-#include "compare/reference/lighting.h"
-#include "compare/reference/sampling.h"
+#include "compare/reference/light/lighting.h"
+#include "compare/reference/scattering/sampling.h"
 #include "compare/verdict/blended_pixels.h"
 #include "compare/verdict/environment_cost.h"
 #include "compare/verdict/frame_pair.h"

@@ -3,7 +3,7 @@
 // frames.
 #pragma once
 
-#include "compare/viewer/result.h"
+#include "compare/viewer/drawing/result.h"
 
 #include <chrono>
 #include <cstdint>

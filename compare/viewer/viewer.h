@@ -4,8 +4,8 @@
 #pragma once
 
 #include "compare/verdict/comparison.h"
-#include "compare/viewer/request.h"
-#include "shared/vulkan/device.h"
+#include "compare/viewer/drawing/request.h"
+#include "shared/vulkan/device/device.h"
 
 #include <filesystem>
 #include <functional>

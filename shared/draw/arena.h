@@ -2,7 +2,7 @@
 // Arrays of any types in one buffer that shaders read by address.
 #pragma once
 
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <cstddef>
 #include <cstring>

@@ -5,8 +5,8 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/frame/channel.h"
-#include "shared/vulkan/pass_list.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <cstddef>
 #include <span>

@@ -6,8 +6,8 @@
 #include "shared/contract/culling.h"
 #include "shared/draw/geometry.h"
 #include "shared/draw/visible_clusters.h"
-#include "shared/vulkan/pass_list.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <cstdint>
 #include <span>

@@ -9,7 +9,7 @@
 #include "shared/draw/draw_list.h"
 #include "shared/draw/layouts.h"
 #include "shared/draw/visible_clusters.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <cstdint>
 #include <optional>

@@ -4,7 +4,7 @@
 
 #include "shared/contract/posing.h"
 #include "shared/draw/geometry.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <cstdint>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/depth_storage.h"
 
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <fmt/format.h>
 

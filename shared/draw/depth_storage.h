@@ -4,8 +4,8 @@
 
 #include "shared/contract/view.h"
 #include "shared/frame/settings.h"
-#include "shared/vulkan/pass.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <optional>
 #include <string>

@@ -8,7 +8,7 @@
 #include "shared/draw/posing.h"
 #include "shared/frame/settings.h"
 #include "shared/material/gbuffer_layout.h"
-#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/passes/pass_list.h"
 
 #include <array>
 #include <memory>

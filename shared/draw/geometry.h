@@ -5,7 +5,7 @@
 #include "shared/draw/cluster_triangles.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/motion/instances.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <span>
 #include <vector>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "shared/light/light_lists.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <span>
 

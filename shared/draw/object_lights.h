@@ -4,8 +4,8 @@
 
 #include "shared/draw/draw_list.h"
 #include "shared/light/per_object.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <cstdint>
 #include <optional>

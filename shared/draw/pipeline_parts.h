@@ -2,7 +2,7 @@
 // Vertex input of pipelines.
 #pragma once
 
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 namespace diptych {
 

@@ -6,8 +6,8 @@
 #include "shared/draw/deformations.h"
 #include "shared/draw/draw_list.h"
 #include "shared/frame/setting_values.h"
-#include "shared/vulkan/pass_list.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <cstdint>
 #include <memory>

@@ -5,10 +5,10 @@
 
 #include "shared/environment/environment_maps.h"
 #include "shared/frame/settings.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/resources.h"
-#include "shared/vulkan/user_cache.h"
-#include "shared/vulkan/variant.h"
+#include "shared/vulkan/device/resources.h"
+#include "shared/vulkan/instance/user_cache.h"
+#include "shared/vulkan/pipelines/descriptors.h"
+#include "shared/vulkan/spirv/variant.h"
 
 #include <cstdint>
 #include <filesystem>

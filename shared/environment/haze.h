@@ -5,9 +5,9 @@
 #include "shared/contract/haze.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/model/scene.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/resources.h"
-#include "shared/vulkan/variant.h"
+#include "shared/vulkan/device/resources.h"
+#include "shared/vulkan/pipelines/descriptors.h"
+#include "shared/vulkan/spirv/variant.h"
 
 #include <glm/vec3.hpp>
 

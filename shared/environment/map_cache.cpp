@@ -2,7 +2,7 @@
 #include "shared/environment/map_cache.h"
 
 #include "shared/image/atomic_file.h"
-#include "shared/vulkan/user_cache.h"
+#include "shared/vulkan/instance/user_cache.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

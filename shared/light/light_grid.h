@@ -5,7 +5,7 @@
 #include "shared/contract/light_list.h"
 #include "shared/light/lights.h"
 #include "shared/scene/view.h"
-#include "shared/vulkan/device_profile.h"
+#include "shared/vulkan/instance/device_profile.h"
 
 #include <cstdint>
 #include <span>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "shared/light/light_grid.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <cstdint>
 #include <span>

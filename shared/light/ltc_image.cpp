@@ -2,7 +2,7 @@
 #include "shared/light/ltc_image.h"
 
 #include "shared/light/ltc.h"
-#include "shared/vulkan/check.h"
+#include "shared/vulkan/instance/check.h"
 
 #include <cstdint>
 #include <span>

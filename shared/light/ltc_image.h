@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
 
 namespace diptych {
 

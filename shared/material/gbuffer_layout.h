@@ -6,7 +6,7 @@
 #include "shared/contract/gbuffer.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/requirements.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <array>
 #include <vector>

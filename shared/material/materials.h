@@ -8,9 +8,9 @@
 #include "shared/frame/setting_values.h"
 #include "shared/material/texel_plan.h"
 #include "shared/scene/model/scene.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pipelines.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
+#include "shared/vulkan/pipelines/descriptors.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <array>
 #include <compare>

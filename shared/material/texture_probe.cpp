@@ -3,9 +3,9 @@
 
 #include "shared/material/textures.h"
 #include "shared/scene/model/material_slots.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <fmt/format.h>
 #include <array>

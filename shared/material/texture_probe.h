@@ -6,7 +6,7 @@
 
 #include "shared/frame/setting_values.h"
 #include "shared/scene/model/scene.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <glm/vec4.hpp>
 

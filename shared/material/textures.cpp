@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/material/textures.h"
 
-#include "shared/vulkan/check.h"
+#include "shared/vulkan/instance/check.h"
 
 #include <fmt/format.h>
 

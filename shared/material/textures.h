@@ -4,7 +4,7 @@
 
 #include "shared/frame/setting_values.h"
 #include "shared/scene/image/mipmap.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <functional>
 

@@ -5,7 +5,7 @@
 #include "shared/draw/frame_inputs.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/shadow/clipmap_cache.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <glm/vec2.hpp>
 

@@ -5,7 +5,7 @@
 #include "shared/frame/frame.h"
 #include "shared/frame/settings.h"
 #include "shared/shadow/clipmap_atlas.h"
-#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <memory>
 #include <string>

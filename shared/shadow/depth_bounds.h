@@ -6,8 +6,8 @@
 #include "shared/draw/frame_inputs.h"
 #include "shared/scene/view.h"
 #include "shared/shadow/cascades.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <optional>
 

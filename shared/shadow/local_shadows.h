@@ -6,8 +6,8 @@
 #include "shared/draw/frame_inputs.h"
 #include "shared/frame/settings.h"
 #include "shared/shadow/local_atlas.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <cstdint>
 #include <span>

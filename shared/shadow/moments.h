@@ -4,9 +4,9 @@
 
 #include "shared/contract/shadow.h"
 #include "shared/frame/settings.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 
 #include <string>
 

@@ -10,8 +10,8 @@
 #include "shared/shadow/clipmap_shadow.h"
 #include "shared/shadow/depth_bounds.h"
 #include "shared/shadow/moments.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <cstdint>
 #include <optional>

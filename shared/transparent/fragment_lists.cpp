@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/transparent/fragment_lists.h"
 
-#include "shared/vulkan/commands.h"
+#include "shared/vulkan/device/commands.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include "shared/contract/transparency.h"
 #include "shared/draw/draw_list.h"
 #include "shared/frame/settings.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <cstdint>
 

@@ -7,7 +7,7 @@
 #include "compare/render/prepared_frames.h"
 #include "compare/render/renderer.h"
 #include "shared/scene/load.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <fmt/format.h>
 

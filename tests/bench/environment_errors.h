@@ -4,9 +4,9 @@
 // shaders/lib/environment/environment.glsl reads them.
 #pragma once
 
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
-#include "compare/reference/environment.h"
+#include "compare/reference/light/environment.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
 #include "shared/contract/albedo.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/environment.h"

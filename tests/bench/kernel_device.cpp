@@ -6,7 +6,7 @@
 #include "shared/contract/light_list.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/draw/layouts.h"
-#include "shared/vulkan/check.h"
+#include "shared/vulkan/instance/check.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "tests/bench/kernels.h"
 
 #include "shared/text/counted.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -6,8 +6,8 @@
 #include "shared/draw/geometry.h"
 #include "shared/material/materials.h"
 #include "shared/scene/model/scene.h"
-#include "shared/vulkan/device.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/device.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -6,8 +6,8 @@
 // n.
 #include "shared/draw/posing.h"
 #include "shared/scene/motion/pose.h"
-#include "shared/vulkan/device.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/device.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>

@@ -5,8 +5,8 @@
 #include "shared/contract/features.h"
 #include "shared/draw/frame_inputs.h"
 #include "shared/shadow/moments.h"
-#include "shared/vulkan/check.h"
-#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/instance/check.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 #include "tests/probe/probe.h"
 
 #include <fmt/format.h>

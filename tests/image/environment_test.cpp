@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Environment light in both paths: compared with closed forms, ambient light, and the reference.
-#include "compare/reference/environment.h"
+#include "compare/reference/light/environment.h"
 #include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"

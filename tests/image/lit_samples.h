@@ -4,7 +4,7 @@
 
 #include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
-#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 #include "tests/image/probe_words.h"
 #include "tests/image/scenes.h"
 

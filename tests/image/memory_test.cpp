@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fallbacks if device memory is short: the next memory type, an exact size, and finally a message that
 // names the request that was too large. A full heap is simulated: lavapipe's heap never is full.
-#include "shared/vulkan/memory.h"
+#include "shared/vulkan/device/memory.h"
 #include "tests/image/scenes.h"
 
 #include <algorithm>

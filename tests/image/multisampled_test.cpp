@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The device's MSAA behaviour that both paths rely on.
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 #include "tests/image/probe_words.h"
 #include "tests/image/scenes.h"
 

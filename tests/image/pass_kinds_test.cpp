@@ -2,9 +2,9 @@
 // Runs every kind of pass: blending, depth bias and clamping, resolves, levels and layers, storage images,
 // indirect dispatches and draws, aliased memory, bands of rows, frames in flight. The validation layer
 // reports missing barriers (validation_test.cpp).
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/pass_list.h"
-#include "shared/vulkan/pipelines.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
+#include "shared/vulkan/pipelines/pipelines.h"
 #include "tests/image/scenes.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 #include "tests/support/campaign.h"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "compare/image/channel_image.h"
 #include "compare/output/writers.h"
 #include "compare/render/renderer.h"
-#include "compare/viewer/drawing_thread.h"
-#include "compare/viewer/fly_camera.h"
+#include "compare/viewer/drawing/drawing_thread.h"
+#include "compare/viewer/window/fly_camera.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/load.h"
 

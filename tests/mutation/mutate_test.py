@@ -96,7 +96,7 @@ class Drawn(unittest.TestCase):
             self.assertEqual(mutate.blamed(said, edits, pathlib.Path("/t")), {edit.number} if bad else set(), said)
 
     def test_where_modules_become_known_there_is_what_sets_the_switch(self):
-        sources = "".join(p.read_text(encoding="utf-8") for p in mutate.ROOT.glob("shared/vulkan/*.cpp"))
+        sources = "".join(p.read_text(encoding="utf-8") for p in mutate.ROOT.rglob("shared/vulkan/**/*.cpp"))
         for old in mutate.SETTERS:
             self.assertIn(old, sources)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Closed form and ray march of haze in the shaders, compared with the reference's quadrature.
-#include "compare/reference/haze.h"
+#include "compare/reference/light/haze.h"
 #include "shared/contract/features.h"
 #include "shared/environment/haze.h"
 #include "tests/probe/probe.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Analytic ambient terms of the shaders (no table), compared with the reference's integrals.
-#include "compare/reference/ambient.h"
+#include "compare/reference/scattering/ambient.h"
 #include "shared/environment/directional_albedo.h"
 #include "tests/probe/probe.h"
 

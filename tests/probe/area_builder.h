@@ -2,7 +2,7 @@
 // Area lights for the probe area.comp, with expected results from the reference and from the table alone.
 #pragma once
 
-#include "compare/reference/lighting.h"
+#include "compare/reference/light/lighting.h"
 #include "shared/contract/features.h"
 #include "shared/light/fit/lobe.h"
 #include "shared/light/lights.h"

@@ -3,7 +3,7 @@
 // lobe's ray (Karis 2013, "Real Shading in Unreal Engine 4"; Drobot 2014, GPU Pro 5), the solid angle, and
 // the lowered peak. Independently of that definition, small lights must have the irradiance of their solid
 // angle.
-#include "compare/reference/brdf.h"
+#include "compare/reference/scattering/brdf.h"
 #include "tests/probe/area_builder.h"
 
 #include <gtest/gtest.h>

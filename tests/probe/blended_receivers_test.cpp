@@ -2,8 +2,8 @@
 // Receivers of the sun's shadow among blended surfaces: their view depths, and the shadow pages they read.
 #include "shared/shadow/blended_receivers.h"
 
-#include "shared/vulkan/device.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/device.h"
+#include "shared/vulkan/device/resources.h"
 #include "tests/probe/probe.h"
 #include "tests/support/shapes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The shaders' BRDF compared with closed forms and tables.
-#include "compare/reference/brdf.h"
+#include "compare/reference/scattering/brdf.h"
 #include "shared/contract/features.h"
 #include "tests/probe/probe.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Compiling for a GPU that is not installed: reports for light pipelines, for ones that spill, and for
 // ones that exceed the device's limits.
-#include "shared/vulkan/device_compiler.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/driver_probe.h"
-#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/pipelines/device_compiler.h"
+#include "shared/vulkan/instance/driver_probe.h"
+#include "shared/vulkan/passes/pass_list.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <gtest/gtest.h>
 

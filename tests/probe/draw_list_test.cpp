@@ -3,8 +3,8 @@
 #include "shared/draw/draw_list.h"
 
 #include "shared/contract/features.h"
-#include "shared/vulkan/device.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/device.h"
+#include "shared/vulkan/device/resources.h"
 #include "tests/probe/probe.h"
 #include "tests/support/shapes.h"
 

@@ -6,9 +6,9 @@
 #include "shared/contract/bindings.h"
 #include "shared/light/light_lists.h"
 #include "shared/scene/view.h"
-#include "shared/vulkan/check.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
+#include "shared/vulkan/instance/check.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <array>
 #include <cstring>

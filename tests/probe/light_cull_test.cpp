@@ -3,7 +3,7 @@
 // precision. There must be no false negatives; false positives are counted.
 #include "shared/contract/features.h"
 #include "shared/light/light_grid.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 #include "tests/probe/cells.h"
 #include "tests/probe/probe.h"
 

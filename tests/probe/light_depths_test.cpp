@@ -2,7 +2,7 @@
 // Depth bounds of tiles by the shipped compute shader, with one sample and with four per pixel. Bounds
 // must cover all samples: a tile's lists must not depend on which sample is shaded.
 #include "shared/scene/motion/bounds.h"
-#include "shared/vulkan/descriptors.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 #include "tests/probe/kernel_frame.h"
 #include "tests/probe/probe.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The shaders' multiple-scattering compensation compared with the reference's, light by light.
-#include "compare/reference/multiscatter.h"
-#include "compare/reference/ambient.h"
+#include "compare/reference/scattering/multiscatter.h"
+#include "compare/reference/scattering/ambient.h"
 #include "shared/contract/constants.h"
 #include "shared/contract/features.h"
 #include "shared/contract/multiscatter.h"

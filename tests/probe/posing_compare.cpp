@@ -2,7 +2,7 @@
 #include "tests/probe/posing_compare.h"
 
 #include "shared/draw/posing.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 #include "tests/probe/probe.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
 #include "shared/scene/model/tangents.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 #include "tests/probe/posing_builder.h"
 #include "tests/probe/posing_compare.h"
 #include "tests/probe/probe.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tests/probe/probe.h"
 
-#include "shared/vulkan/check.h"
-#include "shared/vulkan/descriptors.h"
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
+#include "shared/vulkan/instance/check.h"
+#include "shared/vulkan/pipelines/descriptors.h"
 
 #include <array>
 #include <cstring>

@@ -3,7 +3,7 @@
 // shaders/lib and maps `in_width` floats to `out_width` floats, once per input row.
 #pragma once
 
-#include "shared/vulkan/owned.h"
+#include "shared/vulkan/instance/owned.h"
 
 #include <cstdint>
 #include <string>

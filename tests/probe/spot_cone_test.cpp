@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A spot's cone, from the light's angles to the shader's factor: exact at its edges up to float32
 // rounding. A change of 1e-5 rad is detected.
-#include "compare/reference/punctual.h"
+#include "compare/reference/light/punctual.h"
 #include "shared/light/light_grid.h"
 #include "shared/light/lights.h"
 #include "shared/scene/view.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The shaders' slab and diffuse transmission, compared with closed forms and with the reference.
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
 #include "shared/contract/features.h"
 #include "shared/contract/material.h"
 #include "tests/probe/probe.h"

@@ -4,7 +4,7 @@
 // accesses, which the validation layer does not.
 #pragma once
 
-#include "shared/vulkan/pass_list.h"
+#include "shared/vulkan/passes/pass_list.h"
 
 #include <fmt/format.h>
 

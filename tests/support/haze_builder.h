@@ -2,7 +2,7 @@
 // Haze for tests: Settings, a sun, and the reference's Air for both.
 #pragma once
 
-#include "compare/reference/haze.h"
+#include "compare/reference/light/haze.h"
 #include "shared/frame/settings.h"
 #include "shared/scene/model/scene.h"
 

@@ -2,7 +2,7 @@
 // Surfaces, lights and scenes for tests of the reference, and formulas for their expected values.
 #pragma once
 
-#include "compare/reference/lighting.h"
+#include "compare/reference/light/lighting.h"
 #include "compare/reference/reference.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/view.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/contract/features.h"
-#include "shared/vulkan/specialize.h"
+#include "shared/vulkan/spirv/specialize.h"
 
 #include <gtest/gtest.h>
 #include <spirv-tools/libspirv.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `plan` and `bench --compile-on`: a GPU's compiler without the GPU. Mesa's RADV compiles for the families it
 // knows: Debian 12's (Mesa 22.3) lacks RDNA 3 and 4, Debian 13's has all.
-#include "shared/vulkan/driver_probe.h"
+#include "shared/vulkan/instance/driver_probe.h"
 #include "tests/tool/run.h"
 
 #include <nlohmann/json.hpp>

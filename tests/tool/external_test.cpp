@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // External renderers: their jobs, their images, and their failures.
 #include "shared/image/exr.h"
-#include "shared/vulkan/driver_probe.h"
+#include "shared/vulkan/instance/driver_probe.h"
 #include "tests/tool/fake_renderer.h"
 #include "tests/tool/running.h"
 #include "tests/tool/schema.h"

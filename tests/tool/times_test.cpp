@@ -4,7 +4,7 @@
 #include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/load.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/device/device.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // A window of `diptych view` on a virtual screen, and its images.
 #pragma once
 
-#include "compare/viewer/canvas.h"
-#include "compare/viewer/interface_state.h"
+#include "compare/viewer/drawing/canvas.h"
+#include "compare/viewer/interface/interface_state.h"
 #include "shared/image/png.h"
 #include "tests/tool/display.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The window on a virtual screen, driven by real events: it shows the images that other commands write.
 #include "compare/files/frame_exr.h"
-#include "compare/viewer/keys.h"
+#include "compare/viewer/interface/keys.h"
 #include "shared/frame/debug_modes.h"
 #include "tests/support/campaign.h"
 #include "tests/tool/view_fixture.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Interpolants from a surface's vertex shader to its fragment shaders. lavapipe sets up every declared
 // input of every triangle (48 bytes and 5 to 10 ns each), even if a variant does not read it.
-// Specialization therefore removes inputs that the variant does not read (shared/vulkan/specialize.h).
+// Specialization therefore removes inputs that the variant does not read (shared/vulkan/spirv/specialize.h).
 // Under MSAA, shaded_normal and the others are interpolated at the shaded sample location, so that no
 // input is extrapolated beyond its triangle. v_world is not: only its derivatives are used, and the shaded
 // locations of neighbouring pixels are not one pixel apart.

@@ -8,7 +8,7 @@
 // 2048.
 #pragma once
 
-#include "shared/vulkan/device_support.h"
+#include "shared/vulkan/instance/device_support.h"
 
 #include <string>
 #include <vector>

@@ -129,7 +129,7 @@ TEST(Architecture, APlantedClimbIsFound) {
     EXPECT_EQ(plant("shared/contract/planted.h", "shared/image/image.h"), 1u);
     EXPECT_EQ(plant("shared/contract/planted.h", "elsewhere.h"), 1u);
     EXPECT_EQ(plant("deferred/planted.cpp", "forward_plus/forward_plus.h"), 1u);
-    EXPECT_EQ(plant("compare/reference/planted.cpp", "shared/vulkan/device.h"), 1u);
+    EXPECT_EQ(plant("compare/reference/planted.cpp", "shared/vulkan/device/device.h"), 1u);
     EXPECT_EQ(plant("shaders/lib/planted.glsl", "shaders/pass/surface.vert"), 1u);
     EXPECT_EQ(plant("shared/draw/planted.h", "compare/render/renderer.h"), 1u);
     // includes that lead downwards are allowed
@@ -232,7 +232,7 @@ TEST(Architecture, APlantedLoanOfTheReferenceIsFound) {
     for (const char* header :
          {"shared/contract/material.h", "shared/contract/light.h", "shared/contract/constants.h",
           "shared/light/lights.h", "shared/material/materials.h", "shared/draw/draws.h",
-          "shared/vulkan/device.h", "shaders/lib/shading/brdf.glsl", "compare/render/renderer.h",
+          "shared/vulkan/device/device.h", "shaders/lib/shading/brdf.glsl", "compare/render/renderer.h",
           "../metrics/channel.h", "../../shared/contract/view.h"})
         EXPECT_EQ(plant(std::string("#include \"") + header + "\""), 1u) << header;
     EXPECT_EQ(plant("const double a = gpu::MIN_ROUGHNESS;"), 1u);

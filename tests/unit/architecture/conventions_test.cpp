@@ -92,8 +92,8 @@ Faults askersForTheKindOfDevice(const Files& files) {
     Faults faults;
     for (const auto& [path, text] : files)
         if (endsIn(path, {".cpp", ".h"}) && !path.starts_with("tests/") &&
-            !path.starts_with("shared/vulkan/device_profile.") &&
-            path != "shared/vulkan/physical_device.cpp" && path != "shared/frame/frame.h" &&
+            !path.starts_with("shared/vulkan/instance/device_profile.") &&
+            path != "shared/vulkan/instance/physical_device.cpp" && path != "shared/frame/frame.h" &&
             hasAny(text, {"\"cpu\"", "_CPU", "isCpu", "llvmpipe"}) && std::regex_search(text, asks))
             faults.push_back(path);
     return faults;
@@ -146,7 +146,7 @@ Faults askersOfVulkan(const Files& files) {
     Faults faults;
     for (const auto& [path, text] : files) {
         if (!endsIn(path, {".cpp", ".h"}) || path.starts_with("tests/") ||
-            path == "shared/vulkan/device_support.cpp" ||
+            path == "shared/vulkan/instance/device_support.cpp" ||
             !hasAny(text, {"vkGetPhysicalDevice", "vkEnumerateDevice"}))
             continue;
         for (std::sregex_iterator it(text.begin(), text.end(), asks), end; it != end; ++it)
@@ -168,7 +168,7 @@ TEST(Conventions, APlantedQuestionToVulkanIsFound) {
     EXPECT_EQ(plant("shared/vulkan/planted.h", "vkEnumerateDeviceExtensionProperties(d, 0, &n, 0);"), 1u);
     EXPECT_EQ(plant("compare/viewer/planted.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 1u);
     EXPECT_EQ(plant("compare/viewer/planted.cpp", "vkGetPhysicalDeviceSurfaceSupportKHR(d, 0, s, &b);"), 0u);
-    EXPECT_EQ(plant("shared/vulkan/device_support.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 0u);
+    EXPECT_EQ(plant("shared/vulkan/instance/device_support.cpp", "vkGetPhysicalDeviceFeatures2(d, &f);"), 0u);
 }
 
 // Everything printed passes the filter of compare/run/print.h. The progress line and the cache's note,
@@ -182,7 +182,7 @@ Faults otherPrinters(const Files& files) {
         if (endsIn(path, {".cpp", ".h"}) && !path.starts_with("tests/") &&
             !path.starts_with("shaders/tool/") && !path.starts_with("shared/light/fit/") &&
             !path.starts_with("compare/library/example/") && !path.starts_with("compare/run/print.") &&
-            path != "compare/run/progress.cpp" && path != "shared/vulkan/user_cache.cpp" &&
+            path != "compare/run/progress.cpp" && path != "shared/vulkan/instance/user_cache.cpp" &&
             hasAny(text, {"fmt::print(", "std::cout", "std::cerr", "std::clog", "printf(", "puts(",
                           "putchar(", "perror(", "stdout", "stderr"}) &&
             std::regex_search(text, prints))

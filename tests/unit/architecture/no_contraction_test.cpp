@@ -2,7 +2,7 @@
 // Both paths compute the same sums in different shaders. If a driver contracts a product and a sum to one
 // operation in one shader only, they round differently. So every operation of every module is decorated
 // NoContraction.
-#include "shared/vulkan/spirv.h"
+#include "shared/vulkan/spirv/spirv.h"
 #include "tests/support/sources.h"
 #include "tests/support/spirv_module.h"
 

@@ -7,9 +7,9 @@
 #include "shared/contract/light_list.h"
 #include "shared/contract/material.h"
 #include "shared/draw/packed_view.h"
-#include "shared/vulkan/shader_interface.h"
-#include "shared/vulkan/spirv.h"
-#include "shared/vulkan/variant.h"
+#include "shared/vulkan/spirv/shader_interface.h"
+#include "shared/vulkan/spirv/spirv.h"
+#include "shared/vulkan/spirv/variant.h"
 #include "tests/support/sources.h"
 #include "tests/support/spirv_module.h"
 

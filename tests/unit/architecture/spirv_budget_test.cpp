@@ -6,7 +6,7 @@
 //     table=tests/unit/architecture/spirv_budget.txt
 //     build/tests/unit_tests --gtest_filter=SpirvBudget.E* | grep '^[a-z_.]* [0-9]*$' >$table
 #include "compare/probe/modules.h"
-#include "shared/vulkan/spirv.h"
+#include "shared/vulkan/spirv/spirv.h"
 #include "tests/support/files.h"
 #include "tests/support/sources.h"
 

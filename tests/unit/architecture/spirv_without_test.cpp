@@ -3,7 +3,7 @@
 // module built from sources without the feature. The cut sources also lack its row in the list of
 // features, so leftover uses would not compile.
 #include "shared/contract/features.h"
-#include "shared/vulkan/spirv.h"
+#include "shared/vulkan/spirv/spirv.h"
 #include "tests/support/campaign.h"
 #include "tests/support/shader_sources.h"
 #include "tests/support/spirv_module.h"

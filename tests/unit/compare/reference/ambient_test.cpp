@@ -3,8 +3,8 @@
 // integral against the reference's.
 #include "tests/support/reference_builder.h"
 
-#include "compare/reference/ambient.h"
-#include "compare/reference/quadrature.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/quadrature.h"
 #include "shared/contract/albedo.h"
 #include "shared/environment/directional_albedo.h"
 #include "tests/support/cubic.h"

@@ -3,10 +3,10 @@
 #include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"
 
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
-#include "compare/reference/lobe_sampler.h"
-#include "compare/reference/quadrature.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
+#include "compare/reference/scattering/lobe_sampler.h"
+#include "compare/reference/scattering/quadrature.h"
 
 #include <functional>
 

@@ -3,8 +3,8 @@
 #include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"
 
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
 
 namespace diptych::reference {
 namespace {

@@ -2,7 +2,7 @@
 // The reference's lights on a white plane, compared with closed forms.
 #include "tests/support/reference_builder.h"
 
-#include "compare/reference/punctual.h"
+#include "compare/reference/light/punctual.h"
 
 #include <glm/gtc/quaternion.hpp>
 

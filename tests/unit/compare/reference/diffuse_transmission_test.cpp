@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // KHR_materials_diffuse_transmission in the reference: light from behind, by closed forms and by mirrored
 // surfaces.
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
-#include "compare/reference/sheen.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
+#include "compare/reference/scattering/sheen.h"
 
 #include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"

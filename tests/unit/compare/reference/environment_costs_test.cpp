@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Errors of environment lighting approximations, and the light that geometry occludes, compared with
 // closed forms.
-#include "compare/reference/environment_costs.h"
-#include "compare/reference/sheen.h"
+#include "compare/reference/light/environment_costs.h"
+#include "compare/reference/scattering/sheen.h"
 #include "shared/environment/harmonics.h"
 #include "shared/scene/model/luminance.h"
 #include "tests/support/reference_scene.h"

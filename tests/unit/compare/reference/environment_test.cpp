@@ -2,7 +2,7 @@
 // The reference under environments: directions, furnace tests, and its confidence intervals.
 #include "tests/support/reference_builder.h"
 
-#include "compare/reference/environment.h"
+#include "compare/reference/light/environment.h"
 
 namespace diptych::reference {
 namespace {

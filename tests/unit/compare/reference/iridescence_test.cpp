@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The reference's thin films (KHR_materials_iridescence), compared with Airy's sum and with integrals.
-#include "compare/reference/thin_film.h"
+#include "compare/reference/scattering/thin_film.h"
 
 #include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"
 
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
-#include "compare/reference/microsurface.h"
-#include "compare/reference/multiscatter.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
+#include "compare/reference/scattering/microsurface.h"
+#include "compare/reference/scattering/multiscatter.h"
 
 #include <complex>
 

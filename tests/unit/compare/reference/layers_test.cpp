@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The reference reads, shades and limits every layer of layer_table.h.
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
-#include "compare/reference/lobe_sampler.h"
-#include "compare/reference/sheen.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
+#include "compare/reference/scattering/lobe_sampler.h"
+#include "compare/reference/scattering/sheen.h"
 #include "tests/support/layer_table.h"
 #include "tests/support/reference_scene.h"
 

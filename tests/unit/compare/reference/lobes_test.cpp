@@ -2,7 +2,7 @@
 // The reference's material and its reflection of area lights, compared with independent formulas and sums.
 #include "tests/support/reference_builder.h"
 
-#include "compare/reference/brdf.h"
+#include "compare/reference/scattering/brdf.h"
 
 #include <functional>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light through closed meshes in mode scene: a glass ball and a glass plate, by independent formulas.
-#include "compare/reference/mesh_path.h"
+#include "compare/reference/scene/mesh_path.h"
 
 #include "tests/support/reference_scene.h"
 

@@ -3,9 +3,9 @@
 // compensations' distance from it is known.
 #include "tests/support/reference_builder.h"
 
-#include "compare/reference/ambient.h"
-#include "compare/reference/microsurface.h"
-#include "compare/reference/multiscatter.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/microsurface.h"
+#include "compare/reference/scattering/multiscatter.h"
 
 #include <fmt/format.h>
 

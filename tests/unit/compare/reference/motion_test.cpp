@@ -2,7 +2,7 @@
 // The reference's images of animated scenes: skins, morph targets and animations at a given time.
 #include "tests/support/reference_scene.h"
 
-#include "compare/reference/geometry.h"
+#include "compare/reference/scene/geometry.h"
 #include "tests/support/files.h"
 
 #include <atomic>

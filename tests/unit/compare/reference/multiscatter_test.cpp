@@ -2,8 +2,8 @@
 // The reference's energy compensations, compared with their papers' values and in a white furnace.
 #include "tests/support/reference_builder.h"
 
-#include "compare/reference/ambient.h"
-#include "compare/reference/multiscatter.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/multiscatter.h"
 
 namespace diptych::reference {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The confidence interval of a mean of independent estimates, and the sample points.
-#include "compare/reference/sampling.h"
+#include "compare/reference/scattering/sampling.h"
 
-#include "compare/reference/lobe_sampler.h"
-#include "compare/reference/sheen.h"
+#include "compare/reference/scattering/lobe_sampler.h"
+#include "compare/reference/scattering/sheen.h"
 #include "tests/support/reference_builder.h"
 
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Distance to the edge of a shadow, for known edges.
-#include "compare/reference/shadow_edge.h"
+#include "compare/reference/light/shadow_edge.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

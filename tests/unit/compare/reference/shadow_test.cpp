@@ -2,7 +2,7 @@
 // The reference's shadows of area lights, compared with the visible part of their polygon.
 #include "tests/support/reference_builder.h"
 
-#include "compare/reference/sampling.h"
+#include "compare/reference/scattering/sampling.h"
 
 namespace diptych::reference {
 namespace {

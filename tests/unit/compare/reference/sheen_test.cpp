@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The reference's sheens (KHR_materials_sheen), compared with the paper's formulas, closed forms and sums.
-#include "compare/reference/sheen.h"
+#include "compare/reference/scattering/sheen.h"
 
 #include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"
 
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
-#include "compare/reference/lobe_sampler.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
+#include "compare/reference/scattering/lobe_sampler.h"
 
 namespace diptych::reference {
 namespace {

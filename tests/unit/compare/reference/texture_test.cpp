@@ -2,8 +2,8 @@
 // The reference's texture filtering, compared with means over texels; and its ray-triangle intersections.
 #include "tests/support/reference_scene.h"
 
-#include "compare/reference/geometry.h"
-#include "compare/reference/texture.h"
+#include "compare/reference/scene/geometry.h"
+#include "compare/reference/scene/texture.h"
 
 namespace diptych::reference {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Images of panes and slabs: what is seen through them, in which order, through haze, and in furnaces.
-#include "compare/reference/haze.h"
+#include "compare/reference/light/haze.h"
 #include "tests/support/layer_table.h"
 #include "tests/support/reference_scene.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Transmission and diffuse transmission in the reference: energy under every layer, reciprocity, and the ends
 // of their ranges.
-#include "compare/reference/ambient.h"
-#include "compare/reference/brdf.h"
-#include "compare/reference/multiscatter.h"
-#include "compare/reference/sheen.h"
-#include "compare/reference/transmission.h"
+#include "compare/reference/scattering/ambient.h"
+#include "compare/reference/scattering/brdf.h"
+#include "compare/reference/scattering/multiscatter.h"
+#include "compare/reference/scattering/sheen.h"
+#include "compare/reference/scattering/transmission.h"
 #include "shared/scene/builtin/shapes.h"
 #include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Transmission through a surface: Snell's law, absorption, the lobe.
-#include "compare/reference/transmission.h"
+#include "compare/reference/scattering/transmission.h"
 
 #include "tests/support/layer_formulas.h"
 #include "tests/support/reference_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Positions and pixels of the panels in the window.
-#include "compare/viewer/canvas.h"
-#include "compare/viewer/interface_state.h"
+#include "compare/viewer/drawing/canvas.h"
+#include "compare/viewer/interface/interface_state.h"
 
 #include <gtest/gtest.h>
 

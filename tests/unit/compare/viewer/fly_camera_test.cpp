@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The camera that keys and the mouse move.
-#include "compare/viewer/fly_camera.h"
+#include "compare/viewer/window/fly_camera.h"
 
 #include "compare/frames/frame_properties.h"
 #include "shared/scene/load.h"

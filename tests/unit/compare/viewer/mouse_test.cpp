@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/viewer/mouse.h"
+#include "compare/viewer/window/mouse.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Parts of the viewer, without a window: keys, differences, sizes, settings, watched files.
 #include "compare/image/channel_image.h"
-#include "compare/viewer/drawing_thread.h"
-#include "compare/viewer/image_cost.h"
-#include "compare/viewer/images.h"
-#include "compare/viewer/interface.h"
-#include "compare/viewer/keys.h"
+#include "compare/viewer/drawing/drawing_thread.h"
+#include "compare/viewer/drawing/image_cost.h"
+#include "compare/viewer/drawing/images.h"
+#include "compare/viewer/interface/interface.h"
+#include "compare/viewer/interface/keys.h"
 #include "compare/viewer/scene_watch.h"
 #include "shared/frame/debug_modes.h"
 #include "tests/support/files.h"

@@ -2,7 +2,7 @@
 // The paths' environment maps from the CPU, compared with closed forms, sums over all directions in
 // double, and the reference's own reading of the image.
 #include "shared/environment/environment_maps.h"
-#include "compare/reference/environment.h"
+#include "compare/reference/light/environment.h"
 #include "shared/contract/environment.h"
 #include "tests/support/files.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reference's haze integral, compared with known values, and the shaders' constants.
-#include "compare/reference/haze.h"
+#include "compare/reference/light/haze.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/environment/haze.h"

@@ -3,7 +3,7 @@
 // pixel.
 #include "shared/material/gbuffer_layout.h"
 
-#include "shared/vulkan/resources.h"
+#include "shared/vulkan/device/resources.h"
 
 #include <gtest/gtest.h>
 

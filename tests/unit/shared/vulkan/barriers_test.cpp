@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From declared uses to barriers: the rules of synchronization2, one by one. The validation layer finds
 // neither a missing source stage nor a barrier that waits for too much; these tests do.
-#include "shared/vulkan/barriers.h"
-#include "shared/vulkan/device.h"
+#include "shared/vulkan/passes/barriers.h"
+#include "shared/vulkan/device/device.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Modules without the branches that a select replaces.
-#include "shared/vulkan/flatten.h"
+#include "shared/vulkan/spirv/flatten.h"
 
-#include "shared/vulkan/spirv.h"
+#include "shared/vulkan/spirv/spirv.h"
 #include "tests/support/spirv_tools.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The pipeline cache's file: only the same device, driver and program read it back, and only if it is
 // complete.
-#include "shared/vulkan/pipeline_cache.h"
-#include "shared/vulkan/user_cache.h"
+#include "shared/vulkan/device/pipeline_cache.h"
+#include "shared/vulkan/instance/user_cache.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>

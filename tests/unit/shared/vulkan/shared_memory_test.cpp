@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shared memory of the shipped compute shaders, and of a module made word by word.
-#include "shared/vulkan/shared_memory.h"
-#include "shared/vulkan/specialize.h"
-#include "shared/vulkan/spirv.h"
+#include "shared/vulkan/spirv/shared_memory.h"
+#include "shared/vulkan/spirv/specialize.h"
+#include "shared/vulkan/spirv/spirv.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Specialised modules of a few blocks, written here: which code stays, and in which order.
-#include "shared/vulkan/shader_interface.h"
+#include "shared/vulkan/spirv/shader_interface.h"
 #include "tests/support/spirv_tools.h"
 
 #include <gtest/gtest.h>

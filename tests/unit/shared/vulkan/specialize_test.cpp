@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Specialised shipped modules, compared with SPIRV-Tools as an independent implementation. Its validator
 // accepts them, and its slower optimiser gives the same result for the module with the same values.
-#include "shared/vulkan/specialize.h"
+#include "shared/vulkan/spirv/specialize.h"
 
 #include "shared/contract/debug_mode.h"
 #include "shared/contract/features.h"
 #include "shared/contract/material.h"
 #include "shared/contract/posing.h"
-#include "shared/vulkan/shader_interface.h"
-#include "shared/vulkan/spirv.h"
+#include "shared/vulkan/spirv/shader_interface.h"
+#include "shared/vulkan/spirv/spirv.h"
 #include "tests/support/campaign.h"
 #include "tests/support/spirv_tools.h"
 

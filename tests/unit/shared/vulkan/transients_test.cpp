@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Exactly the images whose lifetimes do not overlap share memory.
-#include "shared/vulkan/transients.h"
+#include "shared/vulkan/passes/transients.h"
 
 #include <gtest/gtest.h>
 

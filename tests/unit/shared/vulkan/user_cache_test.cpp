@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The user's cache only accepts files of this user.
-#include "shared/vulkan/user_cache.h"
+#include "shared/vulkan/instance/user_cache.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>

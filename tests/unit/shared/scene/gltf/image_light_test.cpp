@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // EXT_lights_image_based: a scene's environment as the images of a cube.
-#include "compare/reference/environment.h"
+#include "compare/reference/light/environment.h"
 #include "shared/image/png.h"
 #include "shared/scene/image/cube_map.h"
 #include "tests/support/gltf_builder.h"

@@ -2,7 +2,7 @@
 // The sun of painted and real environments: sun and residual together are the environment.
 #include "shared/scene/lights/environment_sun.h"
 
-#include "compare/reference/environment.h"
+#include "compare/reference/light/environment.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/model/luminance.h"
 

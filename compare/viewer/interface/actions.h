@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Actions of keys that change only the interface's state: they need no window, camera or drawing thread.
+#pragma once
+
+#include "compare/viewer/interface/interface_state.h"
+#include "compare/viewer/interface/keys.h"
+
+#include <optional>
+#include <string>
+
+namespace diptych::viewer {
+
+// Applies the action. Returns a message for the user, or an empty one; nothing for other actions.
+std::optional<std::string> actOnState(const KeyPress& pressed, bool shift, const Contents& contents,
+                                      InterfaceState& state);
+
+}  // namespace diptych::viewer

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Everything that Dear ImGui draws: the bar, titles, legends and values over the images, the footer and
+// the help.
+#pragma once
+
+#include "compare/viewer/interface/interface_state.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace diptych::viewer {
+
+// Draws the interface and applies user actions to the state. `places`: the panels in the canvas.
+void drawInterface(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
+                   const std::vector<PanelRect>& places, double scale);
+
+// Text over an image, outlined so that it is readable on any background.
+void drawOutlined(float x, float y, std::uint32_t color, const std::string& text);
+
+}  // namespace diptych::viewer
