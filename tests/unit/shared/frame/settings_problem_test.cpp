@@ -31,7 +31,7 @@ std::string saidOf(const Settings& settings, std::string_view option) {
     return fmt::format("--{} {}", option, settings.valueOf(option));
 }
 
-Settings with(Settings settings, std::string_view option, const std::string& value) {
+Settings withValue(Settings settings, std::string_view option, const std::string& value) {
     settings.set(option, value);
     return settings;
 }
@@ -54,7 +54,7 @@ auto numbersIn(T& member) {
 }
 
 template <class T>
-T next(T value, bool above) {
+T neighbour(T value, bool above) {
     if constexpr (std::is_integral_v<T>)
         return above ? value + 1 : value - 1;
     else
@@ -63,25 +63,25 @@ T next(T value, bool above) {
 }
 
 template <class T>
-struct Range {
+struct SettingRange {
     std::vector<T> accepted, refused;
 };
 
 // The ends of the range that the sentence of a row states, and their neighbours beyond.
 template <class T>
-Range<T> rangeIn(const std::string& sentence) {
+SettingRange<T> rangeIn(const std::string& sentence) {
     constexpr T most = std::numeric_limits<T>::max();
     const auto number = [](const std::string& text) { return static_cast<T>(std::stod(text)); };
     std::smatch found;
-    Range<T> range;
+    SettingRange<T> range;
     if (std::regex_search(sentence, found, std::regex("must be ([-0-9.e]+) to ([-0-9.e]+)")))
         range = {{number(found[1]), number(found[2])},
-                 {next(number(found[1]), false), next(number(found[2]), true)}};
+                 {neighbour(number(found[1]), false), neighbour(number(found[2]), true)}};
     else if (std::regex_search(sentence, found, std::regex("must be ([0-9]+) or more and below ([0-9]+)")))
-        range = {{number(found[1]), next(number(found[2]), false)},
-                 {next(number(found[1]), false), number(found[2])}};
+        range = {{number(found[1]), neighbour(number(found[2]), false)},
+                 {neighbour(number(found[1]), false), number(found[2])}};
     else if (std::regex_search(sentence, found, std::regex("must be (finite and )?at least ([0-9]+)")))
-        range = {{number(found[2]), most}, {next(number(found[2]), false)}};
+        range = {{number(found[2]), most}, {neighbour(number(found[2]), false)}};
     else if (std::regex_search(sentence, std::regex("must be finite$")))
         range = {{most, std::numeric_limits<T>::lowest()}, {}};
     else if (std::regex_search(sentence, std::regex("must be [0-9]+(, [0-9]+)* or [0-9]+$")))
@@ -127,7 +127,7 @@ TEST(Settings, EveryRangeIsWhatItsRowSays) {
             }
         }
     });
-    EXPECT_EQ(problemOf(with({}, "env", "")), "--env '': is empty; name a file, or use none");
+    EXPECT_EQ(problemOf(withValue({}, "env", "")), "--env '': is empty; name a file, or use none");
 }
 
 // ---- Settings that only others give an effect -------------------------------------------------------------
@@ -144,12 +144,12 @@ std::vector<std::string> valuesOf(std::string_view option) {
 }
 
 // The only values of another Setting, `option`, with which the Settings of these rows have an effect.
-struct Condition {
+struct EffectCondition {
     std::string_view because, option;
     std::set<std::string> values;
 };
-const std::vector<Condition>& conditions() {
-    static const std::vector<Condition> all{
+const std::vector<EffectCondition>& conditions() {
+    static const std::vector<EffectCondition> all{
         {"has no effect without --shadows", "shadows", {"pcf", "evsm", "evsm4", "msm4", "pcss", "clipmap"}},
         {"has no effect without --shadows pcf, pcss, evsm, evsm4 or msm4",
          "shadows",
@@ -188,16 +188,16 @@ TEST(Settings, EachIsRefusedExactlyWhereItHasNoEffect) {
         if (only.because.empty()) {
             for (const std::string& value : otherValues(field.option))
                 if (value != "walk") {
-                    EXPECT_EQ(problemOf(with({}, field.option, value)), "none");
+                    EXPECT_EQ(problemOf(withValue({}, field.option, value)), "none");
                 }
             continue;
         }
-        const auto known = std::ranges::find(conditions(), only.because, &Condition::because);
+        const auto known = std::ranges::find(conditions(), only.because, &EffectCondition::because);
         ASSERT_NE(known, conditions().end()) << only.because << ": has no line here";
         for (const std::string& value : otherValues(field.option)) {
-            const Settings said = with({}, field.option, value);
+            const Settings said = withValue({}, field.option, value);
             for (const std::string& other : valuesOf(known->option)) {
-                Settings settings = with(said, known->option, other);
+                Settings settings = withValue(said, known->option, other);
                 if (field.option == "spp") settings.reference_mode = ReferenceMode::scene;
                 EXPECT_EQ(problemOf(settings),
                           known->values.contains(other)
@@ -208,10 +208,10 @@ TEST(Settings, EachIsRefusedExactlyWhereItHasNoEffect) {
             }
         }
     }
-    Settings several = with(with({}, "alpha-to-coverage", "on"), "msaa", "4");
+    Settings several = withValue(withValue({}, "alpha-to-coverage", "on"), "msaa", "4");
     several.msaa_shading = MsaaShading::sample;
     EXPECT_TRUE(problemOf(several).starts_with("--alpha-to-coverage on has no effect without --msaa 4 and"));
-    EXPECT_EQ(problemOf(with(with({}, "resolve", "tonemapped"), "path", "reference")), "none");
+    EXPECT_EQ(problemOf(withValue(withValue({}, "resolve", "tonemapped"), "path", "reference")), "none");
 }
 
 // ---- invalid combinations ---------------------------------------------------------------------------------
@@ -281,7 +281,7 @@ TEST(Settings, ExactlyTheInvalidCombinationsAreRefused) {
                         for (const std::string& b : valuesOf(second)) {
                             Settings settings;
                             settings.path = path;
-                            check(with(with(settings, first, a), second, b));
+                            check(withValue(withValue(settings, first, a), second, b));
                         }
     for (const Combination& combination : invalid)
         EXPECT_TRUE(seen.contains(combination.problem)) << combination.problem;
