@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 // --help of each command: the options that it shows.
+#include "compare/cli/command_diff.h"
 #include "compare/cli/command_line.h"
+#include "tests/support/command_lines.h"
+#include "tests/support/setting_samples.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -96,52 +103,135 @@ TEST(CommandLine, HelpSaysWhatAnOptionMeansInItsCommand) {
               std::string::npos);
 }
 
-TEST(CommandLine, HelpShowsTheSettings) {
-    const auto shows = [](const std::string& command, const std::string& option) {
-        return parseCommandLine({command, "--help", "all"}).help.find("--" + option + " ") !=
-               std::string::npos;
-    };
-    for (const std::string command : {"compare", "tradeoff", "bench"}) {
-        for (const char* option : {"gbuffer",
-                                   "cull",
-                                   "lighting",
-                                   "pixel-lights",
-                                   "spp",
-                                   "reference-mode",
-                                   "ambient",
-                                   "camera",
-                                   "shadows",
-                                   "shadow-kernel",
-                                   "shadow-lights",
-                                   "evsm-exponent",
-                                   "env",
-                                   "env-rotation",
-                                   "env-sun",
-                                   "ibl-intensity",
-                                   "ibl",
-                                   "ibl-diffuse",
-                                   "haze",
-                                   "haze-density",
-                                   "haze-rayleigh",
-                                   "haze-march-steps",
-                                   "specular-albedo",
-                                   "time",
-                                   "animation",
-                                   "variant",
-                                   "msaa",
-                                   "msaa-shading",
-                                   "msaa-edges",
-                                   "resolve",
-                                   "alpha-to-coverage",
-                                   "spec-aa",
-                                   "spec-aa-variance",
-                                   "spec-aa-limit",
-                                   "spec-aa-normals",
-                                   "spec-aa-kernel"})
-            EXPECT_TRUE(shows(command, option)) << command << " " << option;
+// The options of a command, as it describes them.
+struct DescribedCommand {
+    explicit DescribedCommand(const Command& command) { command.describe(app); }
+    CLI::App app;
+};
+
+// Every Setting, by its row: text, printed default and values, and what the command line makes of a word.
+TEST(CommandLine, EverySettingIsAnOptionAsItsRowSays) {
+    using Option = std::pair<std::string, std::string_view>;
+    const std::map<Option, std::string> own_texts{
+        {{"compare", "path"}, "path that --update-baseline writes (the file's own)"},
+        {{"audit", "size"}, "picture size, WxH (160x90)"},
+        {{"audit", "shadows"}, "shadow technique (off, except for shadow quantities)"}};
+    const std::set<Option> unread{{"audit", "path"}, {"choose", "path"}, {"explain", "path"}};
+    const Settings defaults, changed = everythingChanged();
+    std::size_t commands = 0;
+    for (const Command& command : allCommands()) {
+        if (dynamic_cast<const SettingsGroup*>(command.line.get()) == nullptr) continue;
+        ++commands;
+        const DescribedCommand described(command);
+        Settings expected = changed;
+        std::vector<std::string> words{command.name};
+        for (const Field& field : settingFields()) {
+            SCOPED_TRACE(fmt::format("{} --{}", command.name, field.option));
+            if (command.name == "bench" && field.option == "assign") {  // its own list
+                expected.assign = defaults.assign;
+                continue;
+            }
+            const CLI::Option* const option =
+                described.app.get_option_no_throw(fmt::format("--{}", field.option));
+            ASSERT_NE(option, nullptr);
+            const std::string value = defaults.valueOf(field.option);
+            std::string text = fmt::format("{}{}", field.help, value.empty() ? "" : " (" + value + ")");
+            if (const auto own = own_texts.find({command.name, field.option}); own != own_texts.end())
+                text = own->second;
+            if (field.option == "camera") {
+                EXPECT_TRUE(option->get_description().starts_with(text + "; repeatable."));
+            } else {
+                EXPECT_EQ(option->get_description(), text);
+                EXPECT_EQ(option->get_type_name(), acceptedValues(field.option));
+            }
+            EXPECT_EQ(option->get_group().empty(),
+                      command.name == "devices" || unread.contains({command.name, field.option}));
+            words.push_back(fmt::format("--{}={}", field.option, changed.valueOf(field.option)));
+        }
+        EXPECT_EQ(parsedAs<SettingsGroup>(words).settings, expected) << command.name;
+        EXPECT_EQ(parsedAs<SettingsGroup>({command.name}).settings, defaults) << command.name;
     }
-    for (const char* option : {"env", "ibl-intensity", "shadows", "time", "animation", "gbuffer", "spp"})
-        EXPECT_TRUE(shows("render", option)) << option;
+    EXPECT_EQ(commands, 10u);
+}
+
+// Printed defaults that no variable of the parser holds, because the command finds the value.
+std::set<std::string> foundDefaults() {
+    return {"scenes (builtin:gallery)",
+            "report (all failing ones)",
+            "--assign (all supported)",
+            "--at-once (no limit)",
+            "--axes (all)",
+            "--channel (all failing ones)",
+            "--channels (all)",
+            "--color (auto: on a terminal, unless NO_COLOR is set)",
+            "--debug (lit)",
+            "--device (a GPU if there is one)",
+            "--fps (30)",
+            "--frames (1)",
+            "--grid (each Setting alone, and declared pairs)",
+            "--grid (each Setting alone, and helpful combinations)",
+            "--light-counts (the scene's own lights; --table layers: 1,64,1024)",
+            "--lightings (--lighting)",
+            "--metric (flip)",
+            "--out (accepted.json)",
+            "--out (diptych-bench)",
+            "--out (diptych-render)",
+            "--out (diptych-report)",
+            "--out (diptych-tradeoff)",
+            "--out (the current one)",
+            "--paths (deferred,forward_plus)",
+            "--shards (one per scene, at most 16)",
+            "--sizes (--size)",
+            "--start-exposure (from the reference)",
+            "--test (path: the other path)",
+            "--times (--time)",
+            "--timings (by file size)",
+            "--tolerance (none: only equal values pass)",
+            "--transparencies (--transparency)"};
+}
+
+// A default in parentheses ends the text of an option. It is the value that the option's variable has.
+TEST(CommandLine, PrintedDefaultsAreThoseThatAreUsed) {
+    static const std::regex ending(R"(\(([^()]*)\)$)");
+    const std::set<std::string> unset{"", "[]", "0"};
+    std::set<std::string> seen;
+    for (const Command& command : allCommands()) {
+        DescribedCommand described(command);
+        for (CLI::Option* const option : described.app.get_options()) {
+            const std::string name =
+                option->get_lnames().empty() ? option->get_name() : "--" + option->get_lnames().front();
+            const std::string text = option->get_description();
+            const bool isList = command.name == "bench" && name == "--assign";
+            std::smatch found;
+            if (!std::regex_search(text, found, ending)) continue;
+            if (!isList && name.starts_with("--") &&
+                std::ranges::count(settingFields(), name.substr(2), &Field::option) > 0)
+                continue;  // the test above has it
+            const std::string printed = found[1], value = option->capture_default_str()->get_default_str();
+            if (name == "--runs") {
+                EXPECT_EQ(printed, std::to_string(dynamic_cast<const SceneGroup&>(*command.line).runs));
+            } else if (printed != value) {
+                EXPECT_TRUE(unset.contains(value)) << command.name << " " << name << ": is " << value;
+                seen.insert(name + " (" + printed + ")");
+            }
+        }
+    }
+    EXPECT_EQ(seen, foundDefaults());
+}
+
+// Of those, what can be said on the command line means the same as saying nothing.
+TEST(CommandLine, SayingADefaultChangesNothing) {
+    const auto plain = parsedAs<SceneGroup>({"render"});
+    const auto said = parsedAs<SceneGroup>({"render", "builtin:gallery", "--debug", "lit", "--channels",
+                                            "all", "--frames", "1", "--fps", "30", "--color", "auto"});
+    EXPECT_EQ(said.scenes, plain.scenes);
+    EXPECT_EQ(said.shown, plain.shown);
+    EXPECT_EQ(said.channels, plain.channels);
+    EXPECT_EQ(said.frames, plain.frames);
+    EXPECT_EQ(said.fps, plain.fps);
+    EXPECT_EQ(said.color, plain.color);
+    EXPECT_EQ(parsedAs<DiffLine>({"diff", "a", "b", "--metric", "flip"}).diff.metric,
+              parsedAs<DiffLine>({"diff", "a", "b"}).diff.metric);
 }
 
 }  // namespace

@@ -1,377 +1,327 @@
 // SPDX-License-Identifier: MIT
-// Valid and invalid combinations of Settings.
+// Valid and invalid values and combinations of Settings.
 #include "shared/frame/settings.h"
+
+#include "tests/support/setting_samples.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace diptych {
 namespace {
 
-TEST(Settings, TheUsualOnesHaveNoProblem) {
-    EXPECT_EQ(Settings().problem(), std::nullopt);
+std::string problemOf(const Settings& settings) {
+    return settings.problem().value_or("none");
 }
 
-TEST(Settings, WhatIsBuiltHasNoProblem) {
-    const std::pair<const char*, const char*> built[] = {
-        {"path", "deferred"},
-        {"path", "forward_plus"},
-        {"assign", "every"},
-        {"assign", "tiled"},
-        {"assign", "clustered"},
-        {"light-kernel", "gather"},
-        {"light-cutoff", "0.01"},
-        {"area-lights", "representative"},
-        {"textures", "exact"},
-        {"textures", "packed"},
-        {"specular-albedo", "fit"},
-        {"skin-normals", "blended"},
-        {"base-layer", "component"},
-        {"spot-cone", "smoothstep"},
-        {"range-window", "squared"},
-        {"multiscatter", "energy"},
-        {"multiscatter", "fdez"},
-        {"prepass", "on"},
-        {"prepass", "off"},
-        {"cull", "off"},
-        {"gbuffer", "compact"},
-        {"gbuffer", "full"},
-        {"lighting", "compute"},
-        {"layers", "forward"},
-        {"size", "1x1"},
-        {"size", "16384x1"},
-        {"camera", "0"},
-        {"time", "2"},
-        {"animation", "walk"},
-        {"animation", ""},
-        {"variant", "red"},
-        {"variant", "1"},
-        {"scene-lights", "off"},
-        {"lights", "point:3"},
-        {"lights", "none"},
-        {"seed", "9"},
-        {"env", "none"},
-        {"shadows", "off"},
-        {"shadows", "pcf"},
-        {"shadows", "evsm"},
-        {"shadows", "clipmap"},
-        {"shadows", "evsm4"},
-        {"shadows", "msm4"},
-        {"shadows", "pcss"},
-        {"haze", "off"},
-        {"haze", "on"},
-        {"sort", "off"},
-        {"msaa", "1"},
-        {"msaa", "4"},
-        {"msaa", "8"},
-        {"spec-aa", "on"},
-        {"spp", "1"},
-        {"ibl-intensity", "1"},
-        {"env", "sky.exr"},
-        {"path", "reference"},
+// "--option value" of the Settings.
+std::string saidOf(const Settings& settings, std::string_view option) {
+    return fmt::format("--{} {}", option, settings.valueOf(option));
+}
+
+Settings withValue(Settings settings, std::string_view option, const std::string& value) {
+    settings.set(option, value);
+    return settings;
+}
+
+// ---- the range of a single Setting ------------------------------------------------------------------------
+
+template <class T>
+constexpr bool has_numbers = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) ||
+                             std::is_same_v<T, Size> || std::is_same_v<T, Rgb>;
+
+// The numbers that a member has: one, or its components.
+template <class T>
+auto numbersIn(T& member) {
+    if constexpr (std::is_same_v<T, Size>)
+        return std::array{&member.width, &member.height};
+    else if constexpr (std::is_same_v<T, Rgb>)
+        return std::array{&member.r, &member.g, &member.b};
+    else
+        return std::array{&member};
+}
+
+template <class T>
+T neighbour(T value, bool above) {
+    if constexpr (std::is_integral_v<T>)
+        return above ? value + 1 : value - 1;
+    else
+        return std::nextafter(
+            value, above ? std::numeric_limits<T>::infinity() : -std::numeric_limits<T>::infinity());
+}
+
+template <class T>
+struct SettingRange {
+    std::vector<T> accepted, refused;
+};
+
+// The ends of the range that the sentence of a row states, and their neighbours beyond.
+template <class T>
+SettingRange<T> rangeIn(const std::string& sentence) {
+    constexpr T most = std::numeric_limits<T>::max();
+    const auto number = [](const std::string& text) { return static_cast<T>(std::stod(text)); };
+    std::smatch found;
+    SettingRange<T> range;
+    if (std::regex_search(sentence, found, std::regex("must be ([-0-9.e]+) to ([-0-9.e]+)")))
+        range = {{number(found[1]), number(found[2])},
+                 {neighbour(number(found[1]), false), neighbour(number(found[2]), true)}};
+    else if (std::regex_search(sentence, found, std::regex("must be ([0-9]+) or more and below ([0-9]+)")))
+        range = {{number(found[1]), neighbour(number(found[2]), false)},
+                 {neighbour(number(found[1]), false), number(found[2])}};
+    else if (std::regex_search(sentence, found, std::regex("must be (finite and )?at least ([0-9]+)")))
+        range = {{number(found[2]), most}, {neighbour(number(found[2]), false)}};
+    else if (std::regex_search(sentence, std::regex("must be finite$")))
+        range = {{most, std::numeric_limits<T>::lowest()}, {}};
+    else if (std::regex_search(sentence, std::regex("must be [0-9]+(, [0-9]+)* or [0-9]+$")))
+        for (int i = -1; i < 300; ++i)
+            (std::regex_search(sentence, std::regex(fmt::format("\\b{}\\b", i))) && i >= 0 ? range.accepted
+                                                                                           : range.refused)
+                .push_back(static_cast<T>(i));
+    if constexpr (std::is_floating_point_v<T>)
+        range.refused.insert(range.refused.end(),
+                             {std::numeric_limits<T>::infinity(), -std::numeric_limits<T>::infinity(),
+                              std::numeric_limits<T>::quiet_NaN()});
+    return range;
+}
+
+// Every number with a range is accepted as far as its row says and refused beyond, with value and reason.
+TEST(Settings, EveryRangeIsWhatItsRowSays) {
+    EXPECT_EQ(problemOf(Settings()), "none");
+    Settings::rows([](const Field& field, auto member) {
+        using T = std::remove_cvref_t<decltype(Settings().*member)>;
+        SCOPED_TRACE(field.option);
+        if (!field.valid.check) return;
+        if constexpr (!has_numbers<T>) {
+            EXPECT_EQ(field.option, "env") << "has a range that is not tested";
+        } else {
+            Settings settings;
+            const auto refusal = [&] {
+                return fmt::format("{}: {}", saidOf(settings, field.option), field.valid.are);
+            };
+            for (auto* const number : numbersIn(settings.*member)) {
+                const auto before = *number;
+                const auto range =
+                    rangeIn<std::remove_cvref_t<decltype(before)>>(std::string(field.valid.are));
+                ASSERT_FALSE(range.accepted.empty()) << field.valid.are << ": not understood";
+                for (const auto value : range.accepted) {
+                    *number = value;
+                    EXPECT_NE(problemOf(settings), refusal());
+                }
+                for (const auto value : range.refused) {
+                    *number = value;
+                    EXPECT_EQ(problemOf(settings), refusal());
+                }
+                *number = before;
+            }
+        }
+    });
+    EXPECT_EQ(problemOf(withValue({}, "env", "")), "--env '': is empty; name a file, or use none");
+}
+
+// ---- Settings that only others give an effect -------------------------------------------------------------
+
+// Values of a Setting: those with a name, or some.
+std::vector<std::string> valuesOf(std::string_view option) {
+    if (option == "env") return {"none", "scene", "sky.exr"};
+    if (option == "msaa") return {"1", "4", "8"};
+    if (option == "spp") return {"1", "4"};
+    std::vector<std::string> values;
+    std::istringstream accepted(acceptedValues(option));
+    for (std::string value; std::getline(accepted, value, '|');) values.push_back(value);
+    return values;
+}
+
+// The only values of another Setting, `option`, with which the Settings of these rows have an effect.
+struct EffectCondition {
+    std::string_view because, option;
+    std::set<std::string> values;
+};
+const std::vector<EffectCondition>& conditions() {
+    static const std::vector<EffectCondition> all{
+        {"has no effect without --shadows", "shadows", {"pcf", "evsm", "evsm4", "msm4", "pcss", "clipmap"}},
+        {"has no effect without --shadows pcf, pcss, evsm, evsm4 or msm4",
+         "shadows",
+         {"pcf", "pcss", "evsm", "evsm4", "msm4"}},
+        {"has no effect without --shadows evsm or evsm4", "shadows", {"evsm", "evsm4"}},
+        {"has no effect without --shadows evsm4", "shadows", {"evsm4"}},
+        {"has no effect without --shadows clipmap", "shadows", {"clipmap"}},
+        {"has no effect without --env (--env scene uses the environment in the scene's file)",
+         "env",
+         {"sky.exr", "scene"}},
+        {"has no effect without --haze on", "haze", {"on"}},
+        {"has no effect without --spec-aa on", "spec-aa", {"on"}},
+        {"has no effect without --transparency list", "transparency", {"list"}},
+        {"has no effect without --assign per_object", "assign", {"per_object"}},
+        {"has no effect without a reference (--path reference, compare: --baseline reference)",
+         "path",
+         {"reference"}},
+        {"has no effect without --msaa 4", "msaa", {"4", "8"}},
+        {"has no effect without --msaa 4 or a reference", "msaa", {"4", "8"}},
+        {"has no effect without --msaa 4 and --msaa-shading pixel: a single sample is covered or not",
+         "msaa",
+         {"4", "8"}},
+        {"requires --msaa 1", "msaa", {"1"}},
+        {"cannot be used with --msaa 4, which shades interpolated positions instead of the stored depth",
+         "msaa",
+         {"1"}}};
+    return all;
+}
+
+// Without effect, a value other than the default is refused, whatever it is. With it, all are accepted, and
+// so are those of Settings without a condition, but for "walk".
+TEST(Settings, EachIsRefusedExactlyWhereItHasNoEffect) {
+    for (const Field& field : settingFields()) {
+        const DefaultOnly& only = field.default_only;
+        SCOPED_TRACE(field.option);
+        if (only.because.empty()) {
+            for (const std::string& value : otherValues(field.option))
+                if (value != "walk") {
+                    EXPECT_EQ(problemOf(withValue({}, field.option, value)), "none");
+                }
+            continue;
+        }
+        const auto known = std::ranges::find(conditions(), only.because, &EffectCondition::because);
+        ASSERT_NE(known, conditions().end()) << only.because << ": has no line here";
+        for (const std::string& value : otherValues(field.option)) {
+            const Settings said = withValue({}, field.option, value);
+            for (const std::string& other : valuesOf(known->option)) {
+                Settings settings = withValue(said, known->option, other);
+                if (field.option == "spp") settings.reference_mode = ReferenceMode::scene;
+                EXPECT_EQ(problemOf(settings),
+                          known->values.contains(other)
+                              ? "none"
+                              : fmt::format("{} {}; use {}", saidOf(said, field.option), only.because,
+                                            Settings().valueOf(field.option)))
+                    << other;
+            }
+        }
+    }
+    Settings several = withValue(withValue({}, "alpha-to-coverage", "on"), "msaa", "4");
+    several.msaa_shading = MsaaShading::sample;
+    EXPECT_TRUE(problemOf(several).starts_with("--alpha-to-coverage on has no effect without --msaa 4 and"));
+    EXPECT_EQ(problemOf(withValue(withValue({}, "resolve", "tonemapped"), "path", "reference")), "none");
+}
+
+// ---- invalid combinations ---------------------------------------------------------------------------------
+
+struct Combination {
+    std::vector<std::pair<std::string_view, std::string>> words;
+    std::string problem;
+
+    bool isIn(const Settings& settings) const {
+        return std::ranges::all_of(
+            words, [&](const auto& word) { return settings.valueOf(word.first) == word.second; });
+    }
+};
+
+std::vector<Combination> invalidCombinations() {
+    std::vector<Combination> all{
+        {{{"path", "reference"}, {"reference-mode", "surface"}, {"spp", "4"}},
+         "--spp 4: --reference-mode surface shades one sample; use --reference-mode scene"},
+        {{{"path", "deferred"}, {"assign", "per_object"}},
+         "--assign per_object cannot be used with --path deferred: its G-buffer does not store the object; "
+         "use --path forward_plus, or --forward-plus assign=per_object if both paths are rendered"},
+        {{{"path", "forward_plus"}, {"assign", "tiled"}, {"prepass", "off"}},
+         "--assign tiled cannot be used with --prepass off: it needs the depths of a tile; use --prepass "
+         "on"}};
+    for (const std::string format : {"d24", "d16"})
+        all.push_back({{{"path", "forward_plus"}, {"depth-format", format}, {"prepass", "off"}},
+                       fmt::format("--depth-format {} cannot be used with --prepass off: shading needs the "
+                                   "stored depth; use --prepass on",
+                                   format)});
+    for (const std::string path : {"deferred", "forward_plus"}) {
+        all.push_back({{{"path", path}, {"multiscatter", "walk"}},
+                       "--multiscatter walk: only the reference simulates it; use energy or fdez"});
+        for (const std::string transparency : {"weighted", "moments", "list"})
+            for (const std::string samples : {"4", "8"})
+                all.push_back(
+                    {{{"path", path}, {"transparency", transparency}, {"msaa", samples}},
+                     fmt::format("--transparency {} with --msaa {}: it supports only one sample per "
+                                 "pixel; use sorted, unsorted or triangles",
+                                 transparency, samples)});
+    }
+    return all;
+}
+
+// All pairs of values on each path.
+TEST(Settings, ExactlyTheInvalidCombinationsAreRefused) {
+    constexpr std::string_view options[] = {"assign",       "prepass", "depth-format",   "multiscatter",
+                                            "transparency", "msaa",    "reference-mode", "spp"};
+    const std::vector<Combination> invalid = invalidCombinations();
+    std::set<std::string> seen;
+    const auto check = [&](const Settings& settings) {
+        std::vector<std::string> expected;
+        for (const Combination& combination : invalid)
+            if (combination.isIn(settings)) expected.push_back(combination.problem);
+        const std::string problem = problemOf(settings);
+        // The test above has these.
+        if (expected.empty() && problem.find(" has no effect without ") != std::string::npos) return;
+        if (expected.empty() && settings.msaa > 1 && settings.depth_format != DepthFormat::d32f) return;
+        if (expected.empty()) expected.emplace_back("none");
+        EXPECT_EQ(std::ranges::count(expected, problem), 1) << problem << toJson(settings, -1);
+        seen.insert(problem);
     };
-    for (const auto& [option, value] : built) {
-        Settings s;
-        s.set(option, value);
-        EXPECT_EQ(s.problem().value_or("none"), "none");
-    }
+    for (const auto& [path, name] : enumNames<Path>())
+        for (const std::string_view first : options)
+            for (const std::string_view second : options)
+                if (first < second)
+                    for (const std::string& a : valuesOf(first))
+                        for (const std::string& b : valuesOf(second)) {
+                            Settings settings;
+                            settings.path = path;
+                            check(withValue(withValue(settings, first, a), second, b));
+                        }
+    for (const Combination& combination : invalid)
+        EXPECT_TRUE(seen.contains(combination.problem)) << combination.problem;
 }
 
-TEST(Settings, WhatHasNoMeaningIsNamedWithItsValue) {
-    const std::pair<const char*, const char*> rest[] = {
-        {"size", "0x5"},
-        {"size", "5x16385"},
-        {"size", "-1x5"},
-        {"time", "-1"},
-        {"ibl-intensity", "2"},
-        {"ibl-intensity", "-1"},
-        {"ambient", "0,-0.1,0"},
-        {"light-cutoff", "-0.01"},
-        {"pixel-lights", "8"},
-        {"shadow-lights", "1"},
-        {"shadow-lights", "-1"},
-        {"shadow-size", "512"},
-        {"shadow-size", "15"},
-        {"shadow-cascades", "2"},
-        {"shadow-cascades", "5"},
-        {"shadow-kernel", "5"},
-        {"shadow-kernel", "2"},
-        {"shadow-kernel", "9"},
-        {"shadow-fit", "depth"},
-        {"shadow-distance", "10"},
-        {"shadow-bias", "1"},
-        {"clipmap-pages", "64"},
-        {"clipmap-pages", "0"},
-        {"clipmap-page-size", "64"},
-        {"clipmap-page-size", "100"},
-        {"evsm-depth", "0..1"},
-        {"evsm-precision", "fp16"},
-        {"evsm-exponent", "5.5"},
-        {"evsm-negative-exponent", "5"},
-        {"evsm-bleed", "0.2"},
-        {"evsm-min-variance", "0.1"},
-        {"msaa", "2"},
-        {"msaa-shading", "sample"},
-        {"msaa-edges", "all"},
-        {"resolve", "tonemapped"},
-        {"alpha-to-coverage", "on"},
-        {"spec-aa-variance", "0.5"},
-        {"spec-aa-variance", "-1"},
-        {"spec-aa-limit", "0.5"},
-        {"spec-aa-limit", "1.5"},
-        {"spec-aa-normals", "mapped"},
-        {"haze-density", "2"},
-        {"haze-density", "-1"},
-        {"haze-density", "2000000"},
-        {"haze-rayleigh", "0,0,0"},
-        {"haze-rayleigh", "0,-1,0"},
-        {"haze-rayleigh-height", "100"},
-        {"haze-rayleigh-height", "0"},
-        {"haze-mie", "1,1,1"},
-        {"haze-mie", "1,1,2000000"},
-        {"haze-mie-height", "10"},
-        {"haze-mie-height", "0.001"},
-        {"haze-g", "0.5"},
-        {"haze-g", "1"},
-        {"haze-ground", "1"},
-        {"haze-ground", "2000000000"},
-        {"haze-march-steps", "8"},
-        {"haze-march-steps", "-1"},
-        {"haze-march-steps", "257"},
-        {"spp", "16"},
-        {"reference-mode", "scene"},
-    };
-    for (const auto& [option, value] : rest) {
-        Settings s;
-        s.shadows = Shadows::off;
-        s.set(option, value);
-        const std::string problem = s.problem().value_or("none");
-        EXPECT_EQ(problem.find(std::string("--") + option + " " + value), 0u) << problem;
-    }
-}
-
-TEST(Settings, LightsByObjectAreForwardPlussAlone) {
-    Settings s;
-    s.assign = Assignment::per_object;
-    s.path = Path::forward_plus;
-    for (const int lights : {0, 1, 8, 100000}) {
-        s.pixel_lights = lights;
-        EXPECT_EQ(s.problem().value_or("none"), "none");
-    }
-    s.pixel_lights = -1;
-    EXPECT_EQ(s.problem().value_or("none"), "--pixel-lights -1: must be at least 0");
-    s.pixel_lights = 4;
-    s.path = Path::deferred;
-    EXPECT_EQ(
-        s.problem().value_or("none"),
-        "--assign per_object cannot be used with --path deferred: its G-buffer does not store the object; "
-        "use --path forward_plus, or --forward-plus assign=per_object if both paths are rendered");
-}
-
-TEST(Settings, TheReferenceHasMoreThanThePaths) {
-    Settings s;
-    s.path = Path::reference;
-    for (const Shadows shadows : {Shadows::pcf, Shadows::evsm, Shadows::clipmap, Shadows::off}) {
-        s.shadows = shadows;
-        EXPECT_EQ(s.problem().value_or("none"), "none");
-    }
-    s.spp = 4;
-    EXPECT_EQ(s.problem().value_or("none"),
-              "--spp 4: --reference-mode surface shades one sample; use --reference-mode scene");
-    s.reference_mode = ReferenceMode::scene;
-    EXPECT_EQ(s.problem().value_or("none"), "none");
-    for (const int spp : {0, -1, 65537}) {
-        s.spp = spp;
-        EXPECT_EQ(s.problem().value_or("none"), fmt::format("--spp {}: must be 1 to 65536", spp));
-    }
-    s.spp = 1;
-    s.path = Path::deferred;
-    EXPECT_EQ(s.problem().value_or("none"),
-              "--reference-mode scene has no effect without a reference (--path reference, compare: "
-              "--baseline reference); use surface");
-}
-
-// Cascades and pages each belong to their technique. A clipmap level has at least four pages in a row.
-TEST(Settings, AClipmapHasPagesInPlaceOfCascades) {
+// A clipmap level has at least four pages in a row.
+TEST(Settings, AClipmapHasFourPagesInARow) {
     Settings s;
     s.shadows = Shadows::clipmap;
-    EXPECT_EQ(s.problem().value_or("none"), "none");
-    s.clipmap_pages = 1;
     s.clipmap_page_size = 32;
     s.shadow_size = 128;
-    s.shadow_kernel = 7;
-    EXPECT_EQ(s.problem().value_or("none"), "none");
+    EXPECT_EQ(problemOf(s), "none");
     s.shadow_size = 127;
-    EXPECT_EQ(s.problem().value_or("none"),
+    EXPECT_EQ(problemOf(s),
               "--clipmap-page-size 32: four pages in a row exceed --shadow-size 127; use --shadow-size 128 "
               "or more");
     s.path = Path::reference;
-    EXPECT_EQ(s.problem().value_or("none"), "none") << "which ignores both";
+    EXPECT_EQ(problemOf(s), "none") << "which ignores both";
     s.path = Path::deferred;
     s.shadow_size = 200;
     s.clipmap_page_size = 64;
-    EXPECT_EQ(s.problem().value_or("none"),
+    EXPECT_EQ(problemOf(s),
               "--clipmap-page-size 64: four pages in a row exceed --shadow-size 200; use a smaller one");
-    s = {};
-    s.shadows = Shadows::clipmap;
-    s.shadow_cascades = 2;
-    EXPECT_EQ(s.problem().value_or("none"),
-              "--shadow-cascades 2 has no effect without --shadows pcf, pcss, evsm, evsm4 or msm4; use 4");
-    s = {};
-    s.shadows = Shadows::pcf;
-    s.clipmap_pages = 64;
-    EXPECT_EQ(s.problem().value_or("none"),
-              "--clipmap-pages 64 has no effect without --shadows clipmap; use 512");
 }
 
-// Settings of EVSM moments have no effect with other shadow techniques.
-TEST(Settings, MomentsHaveAMeaningWithEvsmAlone) {
+// 16-bit floats cannot represent the second moment of a larger exponent.
+TEST(Settings, ExponentsThatShortMomentsCannotHoldAreRefused) {
     Settings s;
-    s.path = Path::reference;
-    s.evsm_exponent = 5;
-    for (const Shadows shadows : {Shadows::off, Shadows::pcf, Shadows::clipmap}) {
-        s.shadows = shadows;
-        EXPECT_EQ(s.problem().value_or("none"),
-                  "--evsm-exponent 5 has no effect without --shadows evsm or evsm4; use 0");
-    }
-    s.shadows = Shadows::evsm;
-    EXPECT_EQ(s.problem().value_or("none"), "none");
-}
-
-// Neither format can represent the second moment of a larger exponent.
-TEST(Settings, ExponentsThatTheFormatCannotHoldAreRefusedWithTheLargest) {
-    Settings s;
-    s.shadows = Shadows::evsm;
-    for (const float exponent : {0.0f, 40.0f, 44.36f}) {
-        s.evsm_exponent = exponent;
-        EXPECT_EQ(s.problem().value_or("none"), "none");
-    }
-    const std::string are =
-        "must be 0 to 44.36, or 0 to 5.54 with 16-bit moments; larger squares exceed the format";
-    s.evsm_exponent = 44.4f;
-    EXPECT_EQ(s.problem().value_or("none"), "--evsm-exponent 44.4: " + are);
+    s.shadows = Shadows::evsm4;
     s.evsm_precision = EvsmPrecision::fp16;
-    s.evsm_exponent = 5.54f;
-    EXPECT_EQ(s.problem().value_or("none"), "none");
-    s.evsm_exponent = 5.6f;
-    EXPECT_EQ(s.problem().value_or("none"), "--evsm-exponent 5.6: " + are);
-}
-
-TEST(Settings, StepsOfDepthAreReadBackAndHaveOneSample) {
-    Settings s;
-    s.depth_format = DepthFormat::d16;
-    for (const Path path : drawn_paths) {
-        s.path = path;
-        EXPECT_EQ(s.problem().value_or("none"), "none");
+    for (float Settings::*exponent : {&Settings::evsm_exponent, &Settings::evsm_negative_exponent}) {
+        s.*exponent = 5.54f;
+        EXPECT_EQ(problemOf(s), "none");
+        s.*exponent = 5.6f;
+        EXPECT_TRUE(problemOf(s).ends_with(
+            "exponent 5.6: must be 0 to 44.36, or 0 to 5.54 with 16-bit moments; larger squares exceed the "
+            "format"))
+            << problemOf(s);
+        s.*exponent = 0;
     }
-    s.path = Path::forward_plus;
-    s.prepass = Switch::off;
-    EXPECT_EQ(s.problem().value_or("none"),
-              "--depth-format d16 cannot be used with --prepass off: shading needs the stored depth; use "
-              "--prepass on");
-    s.depth_format = DepthFormat::d32f_standard;
-    EXPECT_EQ(s.problem().value_or("none"), "none");
-    for (const char* option : {"depth-format", "lit-format", "shading-precision"}) {
-        Settings several;
-        several.msaa = 4;
-        EXPECT_EQ(several.problem().value_or("none"), "none");
-        several.set(option, option == std::string("depth-format") ? "d24" : "fp16");
-        EXPECT_NE(several.problem().value_or("none").find("--" + std::string(option)), std::string::npos);
-    }
-}
-
-TEST(Settings, EveryPathDrawsEveryTime) {
-    Settings s;
-    s.time = 1.5;
-    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference}) {
-        s.path = path;
-        EXPECT_EQ(s.problem().value_or("none"), "none");
-    }
-    s.reference_mode = ReferenceMode::scene;
-    EXPECT_EQ(s.problem().value_or("none"), "none");
-    for (const double time :
-         {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-        s.time = time;
-        EXPECT_EQ(s.problem().value_or("none"),
-                  fmt::format("--time {}: must be finite and at least 0 s", time));
-    }
-}
-
-TEST(Settings, AnEnvironmentWithoutANameIsNone) {
-    Settings s;
-    s.env = "";
-    EXPECT_EQ(s.problem().value_or("none"), "--env '': is empty; name a file, or use none");
-}
-
-TEST(Settings, AnEnvironmentGivesItsIntensityAMeaning) {
-    Settings s;
-    s.env = "sky.exr";
-    for (const float intensity : {0.0f, 0.5f, 1.0f, 1e30f}) {
-        s.ibl_intensity = intensity;
-        EXPECT_EQ(s.problem().value_or("none"), "none");
-    }
-    for (const float intensity :
-         {-0.5f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
-        s.ibl_intensity = intensity;
-        EXPECT_EQ(s.problem().value_or("none").find("--ibl-intensity "), 0u) << intensity;
-    }
-}
-
-constexpr const char* tilesNeedDepthsSays =
-    "--assign tiled cannot be used with --prepass off: it needs the depths of a tile; use --prepass on";
-
-// A tile's lights depend on its depths: deferred has a G-buffer, forward+ needs a pre-pass. Froxels and
-// objects need no depths.
-TEST(SettingsProblem, OnlyForwardPlussTilesNeedAPrePass) {
-    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
-        for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered})
-            for (const Switch prepass : {Switch::automatic, Switch::on, Switch::off}) {
-                Settings s;
-                s.path = path;
-                s.assign = assign;
-                s.prepass = prepass;
-                const bool wrong =
-                    path == Path::forward_plus && assign == Assignment::tiled && prepass == Switch::off;
-                EXPECT_EQ(s.problem().value_or("none"), wrong ? tilesNeedDepthsSays : "none")
-                    << nameOf(path) << " " << nameOf(assign) << " " << nameOf(prepass);
-            }
-}
-
-TEST(SettingsProblem, OnlyDeferredKnowsNoObjects) {
-    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
-        for (const Switch prepass : {Switch::automatic, Switch::on, Switch::off}) {
-            Settings s;
-            s.path = path;
-            s.assign = Assignment::per_object;
-            s.prepass = prepass;
-            EXPECT_EQ(s.problem().has_value(), path == Path::deferred) << nameOf(path);
-        }
-}
-
-TEST(SettingsProblem, OnlyTheReferenceFollowsLightBetweenMicrofacets) {
-    for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
-        for (const auto& [multiscatter, name] : enumNames<Multiscatter>()) {
-            Settings s;
-            s.path = path;
-            s.multiscatter = multiscatter;
-            EXPECT_EQ(s.problem().has_value(), path != Path::reference && multiscatter == Multiscatter::walk)
-                << nameOf(path) << " " << name;
-        }
-}
-
-TEST(SettingsProblem, OnlyTheReferenceInModeSceneHasSamples) {
-    for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene})
-        for (const int spp : {1, 2, 65536}) {
-            Settings s;
-            s.path = Path::reference;
-            s.reference_mode = mode;
-            s.spp = spp;
-            EXPECT_EQ(s.problem().has_value(), mode == ReferenceMode::surface && spp != 1) << spp;
-        }
 }
 
 }  // namespace
