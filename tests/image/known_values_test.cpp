@@ -2,6 +2,7 @@
 // Pixels computed by hand: a 2 m square that fills the image, 1 m in front of the camera, with simple
 // lights and textures.
 #include "tests/image/square.h"
+#include "tests/support/light_formulas.h"
 
 #include <numbers>
 
@@ -161,8 +162,9 @@ TEST(KnownValues, LambertUnderASunAndUnderAPointLight) {
     lamp.range = 4;
     lamp.position = {0, 0, 2};
     scene.lights = {lamp};
-    const double d2 = 4 + 2 * 0.25 * 0.25, window = 1 - d2 * d2 / 256;
-    const double expected = 10 / d2 * window * 2 / std::sqrt(d2) / std::numbers::pi;
+    Light seen = lamp;
+    seen.position -= glm::dvec3(0.25, -0.25, 0);
+    const double expected = irradianceFrom(seen, {0, 0, 1}) / std::numbers::pi;
     for (const Frame& frame : draw(scene))
         expectColor(colorAt(frame, Channel::lit, 2, 2), glm::vec3(static_cast<float>(expected)), 5 * float32,
                     frame.name + " point light");
