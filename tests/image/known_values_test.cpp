@@ -2,7 +2,6 @@
 // Pixels computed by hand: a 2 m square that fills the image, 1 m in front of the camera, with simple
 // lights and textures.
 #include "tests/image/square.h"
-#include "tests/support/light_formulas.h"
 
 #include <numbers>
 
@@ -138,36 +137,6 @@ TEST(KnownValues, MetallicRoughnessAndOcclusionTextures) {
         EXPECT_EQ(colorAt(frame, occlusion, 3, 0).x, 0.5f) << "1 + strength (0 - 1)";
         EXPECT_NEAR(colorAt(frame, roughness, 3, 3).x, 0.5f * 128 / 255, float32) << "linear, not sRGB";
     }
-}
-
-// A rough white dielectric without specular, lit along its normal: E / pi.
-TEST(KnownValues, LambertUnderASunAndUnderAPointLight) {
-    Scene scene = square();
-    Material& m = scene.materials[0];
-    m.metallic = 0;
-    m.specular = 0;  // F0 = F90 = 0: only the base
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = 2;
-    sun.direction = {0, 0, -1};
-    scene.lights = {sun};
-    for (const Frame& frame : draw(scene))
-        expectColor(colorAt(frame, Channel::lit, 2, 1), glm::vec3(2 / std::numbers::pi_v<float>), float32,
-                    frame.name + " sun");
-
-    // 10 cd, 2 m above the centre, range 4 m: E = 10 / d^2 (1 - (d/4)^4) cos. At the pixel right of and
-    // below the centre: (0.25, -0.25), d^2 = 4.125, cos = 2 / d.
-    Light lamp;
-    lamp.intensity = 10;
-    lamp.range = 4;
-    lamp.position = {0, 0, 2};
-    scene.lights = {lamp};
-    Light seen = lamp;
-    seen.position -= glm::dvec3(0.25, -0.25, 0);
-    const double expected = irradianceFrom(seen, {0, 0, 1}) / std::numbers::pi;
-    for (const Frame& frame : draw(scene))
-        expectColor(colorAt(frame, Channel::lit, 2, 2), glm::vec3(static_cast<float>(expected)), 5 * float32,
-                    frame.name + " point light");
 }
 
 // A white metal seen and lit along its normal: F D V cos = 1 x 1/(pi a^2) x 1/4 with a = roughness^2.
