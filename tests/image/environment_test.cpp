@@ -8,6 +8,7 @@
 #include "shared/environment/environment_maps.h"
 #include "shared/environment/octahedral_map.h"
 #include "tests/image/square.h"
+#include "tests/support/layer_formulas.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -201,11 +202,8 @@ double sampledWhite(const EnvironmentMaps& maps, double roughness, const glm::dv
         h = glm::normalize(glm::dvec3(alpha * h.x, alpha * h.y, h.z));
         const glm::dvec3 l = 2 * glm::dot(v, h) * h - v;
         if (l.z <= 0) continue;
-        const double t = h.z * h.z * (alpha * alpha - 1) + 1;
-        const double density = alpha * alpha / (pi * t * t * 4 * v.z * (1 + lambda(v.z)));
-        // A texel covers 4 / side^2 of [-1, 1]^2, and that times
-        // d
-        // _1^3 in sr (octahedral_map.h).
+        const double density = ggx(alpha, h.z) / (4 * v.z * (1 + lambda(v.z)));
+        // A texel covers 4 / side^2 of [-1, 1]^2, and that times |d|_1^3 in sr (octahedral_map.h).
         const double l1 = std::abs(l.x) + std::abs(l.y) + std::abs(l.z), side = maps.levels[0].side;
         const double texel = 4 / (side * side) * l1 * l1 * l1;
         const double last = static_cast<double>(maps.levels.size()) - 1;

@@ -139,35 +139,6 @@ TEST(KnownValues, MetallicRoughnessAndOcclusionTextures) {
     }
 }
 
-// A rough white dielectric without specular, lit along its normal: E / pi.
-TEST(KnownValues, LambertUnderASunAndUnderAPointLight) {
-    Scene scene = square();
-    Material& m = scene.materials[0];
-    m.metallic = 0;
-    m.specular = 0;  // F0 = F90 = 0: only the base
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = 2;
-    sun.direction = {0, 0, -1};
-    scene.lights = {sun};
-    for (const Frame& frame : draw(scene))
-        expectColor(colorAt(frame, Channel::lit, 2, 1), glm::vec3(2 / std::numbers::pi_v<float>), float32,
-                    frame.name + " sun");
-
-    // 10 cd, 2 m above the centre, range 4 m: E = 10 / d^2 (1 - (d/4)^4) cos. At the pixel right of and
-    // below the centre: (0.25, -0.25), d^2 = 4.125, cos = 2 / d.
-    Light lamp;
-    lamp.intensity = 10;
-    lamp.range = 4;
-    lamp.position = {0, 0, 2};
-    scene.lights = {lamp};
-    const double d2 = 4 + 2 * 0.25 * 0.25, window = 1 - d2 * d2 / 256;
-    const double expected = 10 / d2 * window * 2 / std::sqrt(d2) / std::numbers::pi;
-    for (const Frame& frame : draw(scene))
-        expectColor(colorAt(frame, Channel::lit, 2, 2), glm::vec3(static_cast<float>(expected)), 5 * float32,
-                    frame.name + " point light");
-}
-
 // A white metal seen and lit along its normal: F D V cos = 1 x 1/(pi a^2) x 1/4 with a = roughness^2.
 TEST(KnownValues, GgxPeak) {
     Scene scene = square();

@@ -7,8 +7,8 @@
 #include "shared/light/fit/lobe.h"
 #include "shared/light/lights.h"
 #include "shared/light/ltc.h"
-#include "shared/scene/lights/lights_json.h"
 #include "tests/probe/probe.h"
+#include "tests/support/light_kinds.h"
 #include "tests/support/reference_builder.h"
 
 #include <glm/geometric.hpp>
@@ -33,8 +33,7 @@ struct Receiver {
     double nDotV() const { return std::max(to_viewer.z, double{gpu::MIN_N_DOT_V}); }
 };
 inline glm::dvec3 viewAt(double degrees, double azimuth = 0) {
-    const double angle = degrees * std::numbers::pi / 180;
-    return {std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), std::cos(angle)};
+    return reference::polar(degrees * std::numbers::pi / 180, azimuth);
 }
 
 inline void pushArea(std::vector<float>& input, const Light& light, const Receiver& r) {
@@ -77,37 +76,6 @@ inline std::array<double, 2> referenceArea(const Light& light, const Receiver& r
     white.intensity = 1;
     const reference::Shading shading = reference::Lighting({.lights = std::span(&white, 1)})(s, {}, 1);
     return {shading.reflected.diffuse.g, shading.reflected.specular.g};
-}
-
-// Outline of an area light seen from the origin. A tube's outline has two lines along its side and, at
-// each end, half a rim: the far half if the end's face is visible, otherwise the near half. From beyond an
-// end, within the tube's radius, it is that end's rim.
-inline std::vector<glm::dvec3> outlineOf(const Light& light) {
-    if (light.kind == LightKind::rect) return reference::cornersOf(light);
-    std::vector<glm::dvec3> outline;
-    const auto addRim = [&](const glm::dvec3& centre, const glm::dvec3& x, const glm::dvec3& y, double from,
-                            double to) {
-        reference::addArc(outline, centre, x * double{light.radius}, y * double{light.radius}, from, to);
-    };
-    if (light.kind == LightKind::disc) {
-        const glm::dvec3 x = reference::lightOf(LightKind::disc, {}, light.direction).axis;
-        addRim(light.position, x, glm::cross(light.direction, x), 0, 2 * reference::pi);
-        return outline;
-    }
-    const glm::dvec3 axis = light.axis, half = axis * (double{light.length} / 2);
-    const double along = -glm::dot(light.position, axis);
-    const glm::dvec3 towards = -light.position - axis * along, x = glm::normalize(towards),
-                     y = glm::cross(axis, x);
-    const bool above = along > double{light.length} / 2, below = -along > double{light.length} / 2;
-    if (glm::length(towards) <= double{light.radius}) {
-        if (above) addRim(light.position + half, x, y, 0, 2 * reference::pi);
-        if (below) addRim(light.position - half, x, y, 0, 2 * reference::pi);
-        return outline;
-    }
-    const double angle = std::acos(double{light.radius} / glm::length(towards)), whole = 2 * reference::pi;
-    addRim(light.position + half, x, y, above ? whole - angle : -angle, angle);
-    addRim(light.position - half, x, y, angle, below ? whole - angle : -angle);
-    return outline;
 }
 
 // Integral of p / pi over the light's directions p under the transformed cosine, in its frame. Lambert's

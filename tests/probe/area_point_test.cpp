@@ -82,19 +82,18 @@ PointOfLight pointOf(const Light& light, const Receiver& r) {
     const double square = glm::dot(p.diffuse_at, p.diffuse_at), radius = double{light.radius};
     const glm::dvec3 l = p.diffuse_at / std::sqrt(square);
     if (light.kind == LightKind::tube) {
-        const double along = glm::dot(l, light.axis), length = double{light.length};
-        const double area =
-            2 * radius * length * std::sqrt(1 - along * along) + pi * radius * radius * std::abs(along);
-        p.solid_angle = solidAngle(area, std::sqrt(square * (square + length * length / 4)));
+        const double length = double{light.length};
+        p.solid_angle =
+            solidAngle(apparentArea(light, l), std::sqrt(square * (square + length * length / 4)));
         p.half_size = {radius, length / 2 + radius};
         return p;
     }
-    const double width = double{light.width}, height = double{light.height};
-    const bool rect = light.kind == LightKind::rect;
-    p.solid_angle = solidAngle(rect ? width * height : pi * radius * radius, square) *
-                    std::abs(glm::dot(l, light.direction));
+    p.solid_angle =
+        solidAngle(apparentArea(light, light.direction), square) * std::abs(glm::dot(l, light.direction));
     // Ellipse with the rectangle's area: pi a b = width x height.
-    p.half_size = rect ? glm::dvec2(width, height) / std::sqrt(pi) : glm::dvec2(radius);
+    p.half_size = light.kind == LightKind::rect
+                      ? glm::dvec2(double{light.width}, double{light.height}) / std::sqrt(pi)
+                      : glm::dvec2(radius);
     return p;
 }
 
@@ -189,17 +188,9 @@ TEST_P(AreaPoints, SmallLightsHaveTheirSolidAngle) {
             const double far = glm::length(light.position), cosine = light.position.z / far;
             light.width = static_cast<float>(size * far), light.height = light.width / 2;
             light.length = light.width, light.radius = light.width / 6;
-            const double w = double{light.width}, h = double{light.height}, r = double{light.radius};
-            const glm::dvec3 l = light.position / far;
-            const double facing = std::abs(glm::dot(l, light.direction)),
-                         along = std::abs(glm::dot(l, light.axis));
-            const double area = GetParam() == LightKind::rect ? w * h * facing
-                                : GetParam() == LightKind::disc
-                                    ? pi * r * r * facing
-                                    : 2 * r * w * std::sqrt(1 - along * along) + pi * r * r * along;
             Receiver lambert{.roughness = 1, .metallic = 0, .f0 = 0, .f90 = 0, .to_viewer = viewAt(20)};
             pushArea(input, light, lambert);
-            expected.push_back(area / (far * far) * cosine / pi);
+            expected.push_back(apparentArea(light, light.position / far) / (far * far) * cosine / pi);
         }
     const auto rows = shadeArea(probes, input, true);
     // A point at the light's rim instead of its centre shifts direction and distance by half its size.
@@ -222,8 +213,7 @@ TEST_P(AreaPoints, HalfASizeIsSeen) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, AreaPoints, testing::ValuesIn(areaKinds),
-                         [](const auto& kind) { return std::string(nameOf(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(Kinds, AreaPoints, testing::ValuesIn(areaKinds), lightKindName);
 
 }  // namespace
 }  // namespace diptych::tests

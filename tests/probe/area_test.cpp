@@ -104,13 +104,8 @@ TEST_P(AreaShapes, OnePerCentMoreIsSeen) {
 }
 
 double solidAngleOf(const Light& light) {
-    const double d2 = glm::dot(light.position, light.position);
-    const glm::dvec3 l = light.position / std::sqrt(d2);
-    const double r = double{light.radius}, cosine = std::abs(glm::dot(l, light.direction));
-    if (light.kind == LightKind::rect) return double{light.width} * double{light.height} * cosine / d2;
-    if (light.kind == LightKind::disc) return reference::pi * r * r * cosine / d2;
-    const double along = std::abs(glm::dot(l, light.axis));
-    return (2 * r * double{light.length} * std::sqrt(1 - along * along) + reference::pi * r * r * along) / d2;
+    const double distance = glm::length(light.position);
+    return apparentArea(light, light.position / distance) / (distance * distance);
 }
 glm::dvec3 inLobe(const Light& light, const Receiver& r) {
     const glm::dvec3 l = glm::normalize(light.position),
@@ -267,8 +262,7 @@ TEST_P(AreaShapes, TheBaseLosesWhatTheLayerReflects) {
         EXPECT_NEAR(rows[i][0], expected[i], allowed[i] * expected[i]) << i;
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, AreaShapes, testing::ValuesIn(areaKinds),
-                         [](const auto& kind) { return std::string(nameOf(kind.param)); });
+INSTANTIATE_TEST_SUITE_P(Kinds, AreaShapes, testing::ValuesIn(areaKinds), lightKindName);
 
 }  // namespace
 }  // namespace diptych::tests

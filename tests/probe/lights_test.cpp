@@ -2,10 +2,10 @@
 // KHR_lights_punctual as the shaders evaluate it, compared with the specification's formulas in double.
 #include "shared/light/lights.h"
 #include "tests/probe/probe.h"
+#include "tests/support/light_formulas.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -36,7 +36,7 @@ TEST(Lights, FalloffIsTheSpecificationsFormula) {
     const std::vector<float> out = evaluate(probes, cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double d = static_cast<double>(static_cast<float>(cases[i].y));
-        const double window = std::clamp(1 - std::pow(d / 10, 4), 0.0, 1.0);
+        const double window = punctualWindow(d, 10);
         // Near the range 1 - x^4 cancels: a float32 error of 6e-8 relative to 1, divided by d^2.
         EXPECT_NEAR(out[i * 4], window / (d * d), 1e-6 * window / (d * d) + 3e-7 / (d * d));
         EXPECT_NEAR(out[i * 4 + 2], 1.0f, 2e-7f) << "the direction points to the light";
@@ -73,27 +73,6 @@ TEST(Lights, InTheLightsOwnCentreIsFinite) {
     const std::vector<float> out =
         evaluate(probes, {{0, 0, 0, 5, 0, -1, 0, 0, 1}, {1e-20, 0, 0, 5, 0, -1, 0, 2, -1}});
     for (const float value : out) EXPECT_TRUE(std::isfinite(value));
-}
-
-TEST(Lights, SpotConeIsTheSpecificationsFormula) {
-    Probes probes;
-    const double inner = 0.3, outer = 0.6;
-    const double scale = 1 / std::max(0.001, std::cos(inner) - std::cos(outer)),
-                 offset = -std::cos(outer) * scale;
-    std::vector<PointCase> cases;
-    for (int i = 0; i <= 100; ++i) {
-        const double angle = 0.01 * i;  // the light above shines down; the surface moves away from its axis
-        cases.push_back({std::sin(angle), std::cos(angle), 0, std::numeric_limits<double>::infinity(), 0, -1,
-                         0, scale, offset});
-    }
-    const std::vector<float> out = evaluate(probes, cases);
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const double t = std::clamp(std::cos(0.01 * static_cast<double>(i)) * scale + offset, 0.0, 1.0);
-        EXPECT_NEAR(out[i * 4], t * t, 1e-5)
-            << "angle " << 0.01 * static_cast<double>(i);  // scale 8 x float32
-    }
-    EXPECT_EQ(out[0], 1.0f);
-    EXPECT_EQ(out[4 * 61], 0.0f) << "outside the outer cone";
 }
 
 }  // namespace

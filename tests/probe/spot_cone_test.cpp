@@ -6,6 +6,7 @@
 #include "shared/light/lights.h"
 #include "shared/scene/view.h"
 #include "tests/probe/probe.h"
+#include "tests/support/light_formulas.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -35,12 +36,11 @@ Light spotOf(const std::pair<float, float>& cone, const glm::dvec3& direction = 
     return light;
 }
 
-// KHR_lights_punctual: 1 / max(0.001, cos(inner) - cos(outer)), and the factor before squaring.
 double scaleOf(const std::pair<float, float>& cone) {
-    return 1 / std::max(0.001, std::cos(double{cone.first}) - std::cos(double{cone.second}));
+    return coneScale(double{cone.first}, double{cone.second});
 }
 double factorOf(const std::pair<float, float>& cone, double cosine) {
-    return std::clamp((cosine - std::cos(double{cone.second})) * scaleOf(cone), 0.0, 1.0);
+    return coneFactor(double{cone.first}, double{cone.second}, cosine);
 }
 
 TEST(SpotCone, IsUploadedToTheLastBit) {
@@ -52,12 +52,13 @@ TEST(SpotCone, IsUploadedToTheLastBit) {
     }
 }
 
-// Angles around both edges and between them, on both sides by 1e-6 to 1e-2 rad.
+// Angles around both edges, on both sides by 1e-6 to 1e-2 rad, then 0 to 1 rad.
 std::vector<double> anglesAround(const std::pair<float, float>& cone) {
     std::vector<double> angles{0, (double{cone.first} + double{cone.second}) / 2};
     for (const double edge : {double{cone.first}, double{cone.second}})
         for (const double by : {0.0, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 1e-3, 1e-2})
             for (const double sign : {-1.0, 1.0}) angles.push_back(std::abs(edge + sign * by));
+    for (int i = 0; i <= 100; ++i) angles.push_back(0.01 * i);
     return angles;
 }
 
@@ -94,6 +95,9 @@ TEST(SpotCone, TheShadersEdgesAreTheSpecifications) {
         between += factor > 0.01 && factor < 0.99;
     }
     EXPECT_GT(between, 20);
+    const std::size_t count = anglesAround(cones[1]).size();  // the same for each cone
+    EXPECT_EQ(out[4 * count], 1) << "on the axis of the second cone";
+    EXPECT_EQ(out[4 * (2 * count - 1)], 0) << "outside it";
 }
 
 // Negative control: at the middle of the penumbra, 1e-5 rad at the outer edge changes the factor by more

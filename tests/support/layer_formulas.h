@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed forms of layers from their papers. They share nothing with the reference or the shaders.
+// Closed forms of materials and their layers from their papers. They share nothing with the reference or the
+// shaders.
 #pragma once
 
 #include <glm/common.hpp>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace diptych {
 
@@ -31,6 +33,45 @@ inline double stretchedLobe(const glm::dvec2& widths, const glm::dvec3& l, const
     const double k = std::pow(h.x / widths.x, 2) + std::pow(h.y / widths.y, 2) + h.z * h.z;
     return l.z * 0.5 / (l.z * length(v) + v.z * length(l)) / (std::numbers::pi * widths.x * widths.y * k * k);
 }
+
+// D of Trowbridge and Reitz 1975 (GGX).
+inline double ggx(double alpha, double n_dot_h) {
+    const double t = n_dot_h * n_dot_h * (alpha * alpha - 1) + 1;
+    return alpha * alpha / (std::numbers::pi * t * t);
+}
+
+// Directions of light for a viewer in the xz plane, and weights that integrate over the hemisphere. Changes
+// variables to half vectors distributed as D (n.h) (Walter et al. 2007), so that sharp lobes converge: dl =
+// 4 (v.h) dh. `sectors` over half a turn; the other half is its mirror image.
+struct WeightedDirection {
+    glm::dvec3 to_light;
+    double weight;
+};
+inline std::vector<WeightedDirection> reflectedDirections(const glm::dvec3& v, double alpha, int rings,
+                                                          int sectors) {
+    std::vector<WeightedDirection> directions;
+    for (int i = 0; i < rings; ++i)
+        for (int j = 0; j < sectors; ++j) {
+            const double u = (i + 0.5) / rings, phi = std::numbers::pi * (j + 0.5) / sectors;
+            const double nh = std::sqrt((1 - u) / (1 + (alpha * alpha - 1) * u)),
+                         sine = std::sqrt(1 - nh * nh);
+            const glm::dvec3 h(sine * std::cos(phi), sine * std::sin(phi), nh);
+            const double vh = glm::dot(v, h);
+            const glm::dvec3 l = 2 * vh * h - v;
+            if (vh > 0 && l.z > 0)
+                directions.push_back({l, 4 * vh / (ggx(alpha, nh) * nh * rings * sectors)});
+        }
+    return directions;
+}
+
+// GGX with F = 1 and height-correlated Smith masking: albedo seen straight on, and the white furnace's loss,
+// averaged over all directions of light and viewer, cosine-weighted; three digits.
+struct WhiteMetal {
+    double roughness, value;
+};
+inline constexpr WhiteMetal whiteAlbedos[] = {{0.5, 0.9158}, {1.0, 0.3069}},
+                            whiteLosses[] = {{0.2, 0.0059}, {0.4, 0.0597}, {0.5, 0.118},
+                                             {0.6, 0.197},  {0.8, 0.396},  {1.0, 0.591}};
 
 // A sheen's D V n.l: Estevez and Kulla 2017, "Production Friendly Microfacet Sheen BRDF", equations 2 and 3
 // and table 1.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Surfaces, lights and scenes for tests of the reference, and formulas for their expected values.
+// Surfaces and lights for tests of the reference.
 #pragma once
 
 #include "compare/reference/light/lighting.h"
 #include "compare/reference/reference.h"
 #include "shared/scene/model/scene.h"
 #include "shared/scene/view.h"
+#include "tests/support/light_formulas.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -60,8 +61,7 @@ inline Light lightOf(LightKind kind, const glm::dvec3& position, const glm::dvec
     light.kind = kind;
     light.position = position;
     light.direction = glm::normalize(direction);
-    const glm::dvec3 other = std::abs(light.direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    light.axis = glm::normalize(glm::cross(other, light.direction));
+    light.axis = anyAcross(light.direction);
     return light;
 }
 
@@ -120,44 +120,6 @@ double simpson(int across, int up, const F& f) {
         for (int j = 0; j <= up; ++j)
             sum += weight(i, across) * weight(j, up) * f(double(i) / across, double(j) / up);
     return sum / (9.0 * across * up);
-}
-
-// Lambert's formula for the irradiance of a polygon of radiance 1 seen from the origin, clipped to the
-// horizon. Half the sum over its edges of the subtended angle times the cosine of the edge plane's normal
-// (Lambert 1760, "Photometria"; Baum, Rushmeier and Winget 1989). Valid for the outline of any convex
-// body, planar or not.
-inline double lambertIrradiance(const std::vector<glm::dvec3>& outline, const glm::dvec3& n) {
-    std::vector<glm::dvec3> above;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-        const glm::dvec3 p = outline[i], q = outline[(i + 1) % outline.size()];
-        const double hp = glm::dot(p, n), hq = glm::dot(q, n);
-        if (hp >= 0) above.push_back(p);
-        if ((hp < 0) != (hq < 0)) above.push_back((p * hq - q * hp) / (hq - hp));
-    }
-    double sum = 0;
-    for (std::size_t i = 0; i < above.size(); ++i) {
-        const glm::dvec3 p = above[i], q = above[(i + 1) % above.size()], across = glm::cross(p, q);
-        const double size = glm::length(across);
-        if (size > 0) sum += std::atan2(size, glm::dot(p, q)) * glm::dot(across, n) / size;
-    }
-    return std::abs(sum) / 2;
-}
-
-inline std::vector<glm::dvec3> cornersOf(const Light& rect, const glm::dvec3& from = {0, 0, 0}) {
-    const glm::dvec3 x = rect.axis * (double{rect.width} / 2);
-    const glm::dvec3 y = glm::cross(rect.direction, rect.axis) * (double{rect.height} / 2);
-    const glm::dvec3 c = rect.position - from;
-    return {c - x - y, c + x - y, c + x + y, c - x + y};
-}
-
-// An arc as a polygon. Its relative area error is (angle / corners)^2 / 6, below 2e-8.
-inline void addArc(std::vector<glm::dvec3>& outline, const glm::dvec3& centre, const glm::dvec3& x,
-                   const glm::dvec3& y, double from, double to) {
-    constexpr int corners = 20000;
-    for (int i = 0; i <= corners; ++i) {
-        const double t = from + (to - from) * i / corners;
-        outline.push_back(centre + x * std::cos(t) + y * std::sin(t));
-    }
 }
 
 }  // namespace diptych::reference

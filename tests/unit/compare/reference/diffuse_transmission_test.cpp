@@ -6,6 +6,7 @@
 #include "compare/reference/scattering/sheen.h"
 
 #include "tests/support/layer_formulas.h"
+#include "tests/support/light_kinds.h"
 #include "tests/support/reference_scene.h"
 
 namespace diptych::reference {
@@ -102,17 +103,14 @@ TEST(ReferenceDiffuseTransmission, TheSurfaceBehindIsItsMirror) {
 
 // Every kind of light behind a leaf lights it as it lights an opaque surface from the front.
 TEST(ReferenceDiffuseTransmission, EveryLightPassesFromBehind) {
-    for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot, LightKind::rect,
-                                 LightKind::disc, LightKind::tube}) {
+    for (const LightKind kind : everyLightKind()) {
         const Light above = lightOf(kind, {0.2, 0, 2}), below = lightOf(kind, {0.2, 0, -2}, {0, 0, 1});
         const Shading lit = shadedBy(std::span(&above, 1), leaf(0)),
                       passed = shadedBy(std::span(&below, 1), leaf(0.5, {1, 0.5, 0.25}));
         const double expected = lit.reflected.diffuse.g;
         EXPECT_GT(expected, 0);
-        EXPECT_NEAR(passed.reflected.transmitted.r, 0.5 * expected, 1e-5 * expected)
-            << static_cast<int>(kind);
-        EXPECT_NEAR(passed.reflected.transmitted.b, 0.125 * expected, 1e-5 * expected)
-            << static_cast<int>(kind);
+        EXPECT_NEAR(passed.reflected.transmitted.r, 0.5 * expected, 1e-5 * expected) << nameOf(kind);
+        EXPECT_NEAR(passed.reflected.transmitted.b, 0.125 * expected, 1e-5 * expected) << nameOf(kind);
         EXPECT_EQ(passed.reflected.diffuse, glm::dvec3(0));
         EXPECT_EQ(shadedBy(std::span(&below, 1), leaf(0)).all(), glm::dvec3(0));
     }

@@ -7,6 +7,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/made_channels.h"
 #include "tests/support/files.h"
+#include "tests/support/light_kinds.h"
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -21,9 +22,6 @@
 namespace diptych::reference {
 namespace {
 
-const LightKind kinds[] = {LightKind::directional, LightKind::point, LightKind::spot,
-                           LightKind::rect,        LightKind::disc,  LightKind::tube};
-
 // Value of one pixel that looks straight down at the floor's centre, float32.
 double seenBelow(const Scene& scene, bool shadows = false) {
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), shadows);
@@ -32,45 +30,24 @@ double seenBelow(const Scene& scene, bool shadows = false) {
 
 // ---- kinds and channels ------------------------------------------------------------------------------
 
-// Irradiance of each light type on the floor below it, by formula. A new type that is missing here fails.
-double irradianceOf(const Light& light) {
-    switch (light.kind) {
-        case LightKind::directional:
-            return light.intensity;
-        case LightKind::point:
-        case LightKind::spot:
-            return light.intensity / 4;
-        case LightKind::rect:
-            return light.intensity * lambertIrradiance(cornersOf(light), {0, 0, 1});
-        case LightKind::disc:
-            return light.intensity * pi * 0.25 / (0.25 + 4);
-        case LightKind::tube:
-            return -1;  // tested with the closed forms
-    }
-    ADD_FAILURE() << "a kind of light without a test";
-    return 0;
-}
+class ReferenceDrawOf : public testing::TestWithParam<LightKind> {};
 
-TEST(ReferenceDraw, EveryKindInEveryChannel) {
-    for (const LightKind kind : kinds) {
-        Scene scene = floorScene();
-        scene.lights = {lightOf(kind, {0, 0, 2})};
-        scene.lights[0].intensity = 3;
-        const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 3, 3, 0.01));
-        for (const DebugMode& mode : debugModes()) {
-            ASSERT_EQ(d.image.channels.contains(mode.channel), isMadeByReference(mode)) << mode.name;
-            if (!isMadeByReference(mode)) continue;
-            const Image& image = d.image.channels.at(mode.channel);
-            EXPECT_EQ(image.components, mode.width) << mode.name;
-            for (const float v : image.data) EXPECT_TRUE(std::isfinite(v)) << mode.name;
-        }
-        const double lit = double{d[Channel::lit].at(1, 1, 0)}, expected = irradianceOf(scene.lights[0]) / pi;
-        EXPECT_GT(lit, 0) << static_cast<int>(kind);
-        if (expected > 0) {
-            EXPECT_NEAR(lit, expected, 1e-6 * expected) << static_cast<int>(kind);
-        }
-        EXPECT_EQ(d[Channel::lit_specular].at(1, 1, 0), 0) << "nothing but Lambertian";
+TEST_P(ReferenceDrawOf, ALightInEveryChannel) {
+    Scene scene = floorScene();
+    scene.lights = {lightOf(GetParam(), {0, 0, 2})};
+    scene.lights[0].intensity = 3;
+    const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 3, 3, 0.01));
+    for (const DebugMode& mode : debugModes()) {
+        ASSERT_EQ(d.image.channels.contains(mode.channel), isMadeByReference(mode)) << mode.name;
+        if (!isMadeByReference(mode)) continue;
+        const Image& image = d.image.channels.at(mode.channel);
+        EXPECT_EQ(image.components, mode.width) << mode.name;
+        for (const float v : image.data) EXPECT_TRUE(std::isfinite(v)) << mode.name;
     }
+    const double expected = irradianceFrom(scene.lights[0], {0, 0, 1}) / pi;
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(double{d[Channel::lit].at(1, 1, 0)}, expected, 1e-6 * expected);
+    EXPECT_EQ(d[Channel::lit_specular].at(1, 1, 0), 0) << "nothing but Lambertian";
 }
 
 TEST(ReferenceDraw, Channels) {
@@ -124,16 +101,16 @@ double below(const Scene& scene) {
     return double{d[Channel::lit].at(0, 0, 0)} * pi;
 }
 
-TEST(ReferenceDraw, ARoofShadesEveryKindOfLight) {
-    for (const LightKind kind : kinds) {
-        Scene scene = roofed(matte(), kind);
-        scene.lights[0].width = scene.lights[0].height = 0.5f;
-        scene.lights[0].radius = 0.25f;
-        EXPECT_EQ(below(scene), 0) << static_cast<int>(kind);
-        scene.meshes[0].primitives.pop_back();
-        EXPECT_GT(below(scene), 0) << static_cast<int>(kind);
-    }
+TEST_P(ReferenceDrawOf, ARoofShadesTheFloor) {
+    Scene scene = roofed(matte(), GetParam());
+    scene.lights[0].width = scene.lights[0].height = 0.5f;
+    scene.lights[0].radius = 0.25f;
+    EXPECT_EQ(below(scene), 0);
+    scene.meshes[0].primitives.pop_back();
+    EXPECT_GT(below(scene), 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ReferenceDrawOf, testing::ValuesIn(everyLightKind()), lightKindName);
 
 TEST(ReferenceDraw, WhatCastsAShadow) {
     Material m = matte();

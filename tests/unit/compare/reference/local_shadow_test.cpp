@@ -40,8 +40,7 @@ TEST(ReferenceLocalShadow, IsTheMeanWeightedByIrradiance) {
     // vertical, 2.7 degrees off the axis of its cone of 45 degrees.
     const double point = 1 / (4 + 0.04);
     const glm::dvec3 path = glm::normalize(glm::dvec3(2.2, 0, -2));
-    const double cone =
-        (glm::dot(path, glm::normalize(glm::dvec3(1, 0, -1))) - std::sqrt(0.5)) / (1 - std::sqrt(0.5));
+    const double cone = coneFactor(0, pi / 4, glm::dot(path, glm::normalize(glm::dvec3(1, 0, -1))));
     const double spot = cone * cone / (4 + 2.2 * 2.2);
     EXPECT_NEAR(visibility(seenAt(0.2, {0, 1})), spot / (point + spot), 1e-6);
 }

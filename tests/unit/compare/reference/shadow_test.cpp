@@ -52,21 +52,6 @@ Record recordOf(int seeds, const Surface& s, Expected&& expected) {
     return record;
 }
 
-TEST(ReferenceShadow, FullLightIsTheUnshadowedAndFullShadeIsNone) {
-    for (const LightKind kind : {LightKind::rect, LightKind::disc, LightKind::tube, LightKind::directional}) {
-        Light light = lightOf(kind, {0.2, 0.1, 1.5});
-        light.angle = 0.1f;
-        const std::span one(&light, 1);
-        for (const Surface& s : {lambertian(), mirror(0.2, 0.4)}) {
-            const double whole = shadedBy(one, s).reflected.size();
-            EXPECT_GT(whole, 0);
-            EXPECT_NEAR(shadedBy(one, s, [](const glm::dvec3&, double) { return true; }).reflected.size(),
-                        whole, 1e-6 * whole);
-            EXPECT_EQ(shadedBy(one, s, [](const glm::dvec3&, double) { return false; }).reflected.size(), 0);
-        }
-    }
-}
-
 TEST(ReferenceShadow, AnEdgeAcrossARectangle) {
     const double whole = part(-0.5, 0.5, -0.5, 0.5);
     const Record record = recordOf(200, lambertian(), [&](Random& random) {

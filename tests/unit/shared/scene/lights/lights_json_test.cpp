@@ -2,16 +2,21 @@
 #include "shared/scene/lights/lights_json.h"
 #include "tests/support/errors.h"
 #include "tests/support/files.h"
+#include "tests/support/light_kinds.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
 
 using namespace diptych;
 
@@ -33,93 +38,99 @@ std::string lightsFault(const std::string& text) {
 
 }  // namespace
 
-TEST(LightsJson, EveryField) {
-    const auto lights =
-        read(R"({"type": "spot", "name": "lamp", "position": [1, 2, 3], "direction": [0, -2, 0],
-        "color": [1, 0.5, 0], "intensity": 40, "range": 6,
-        "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}})");
-    ASSERT_EQ(lights.size(), 1u);
-    const Light& l = lights[0];
-    EXPECT_EQ(l.kind, LightKind::spot);
-    EXPECT_EQ(l.name, "lamp");
-    EXPECT_EQ(l.position, glm::dvec3(1, 2, 3));
-    EXPECT_EQ(l.direction, glm::dvec3(0, -1, 0));
-    EXPECT_EQ(l.color, glm::vec3(1, 0.5, 0));
-    EXPECT_EQ(l.intensity, 40);
-    EXPECT_EQ(l.range, 6);
-    EXPECT_FLOAT_EQ(l.inner_cone, 0.1f);
-    EXPECT_FLOAT_EQ(l.outer_cone, 0.2f);
-    EXPECT_EQ(l.node, -1);
-}
-
-TEST(LightsJson, DefaultsAreThoseOfKhrLightsPunctual) {
-    const auto lights = read(R"({"type": "point"}, {"type": "spot"}, {"type": "directional", "range": 3})");
-    ASSERT_EQ(lights.size(), 3u);
-    EXPECT_EQ(lights[0].color, glm::vec3(1));
-    EXPECT_EQ(lights[0].intensity, 1);
-    EXPECT_TRUE(std::isinf(lights[0].range));
-    EXPECT_EQ(lights[1].inner_cone, 0);
-    EXPECT_FLOAT_EQ(lights[1].outer_cone, std::acos(-1.0f) / 4);
-    EXPECT_EQ(lights[1].direction, glm::dvec3(0, 0, -1));
-    EXPECT_TRUE(std::isinf(lights[2].range)) << "a directional light has none";
-}
-
-TEST(LightsJson, ConeAnglesMayStandBesideTheType) {
-    const auto lights = read(R"({"type": "spot", "innerConeAngle": 0.3, "outerConeAngle": 0.4})");
-    EXPECT_FLOAT_EQ(lights[0].inner_cone, 0.3f);
-    EXPECT_FLOAT_EQ(lights[0].outer_cone, 0.4f);
-}
-
-TEST(LightsJson, AreaLights) {
-    const auto lights =
-        read(R"({"type": "rect", "position": [1, 2, 3], "direction": [0, -4, 0], "axis": [0, 0, 2],
-          "size": [3, 2], "intensity": 500, "range": 9, "twoSided": true},
-        {"type": "disc", "radius": 0.25}, {"type": "tube", "length": 1.5, "radius": 0.02, "axis": [0, 3, 4]},
-        {"type": "directional", "angle": 0.0093})");
-    ASSERT_EQ(lights.size(), 4u);
-    const Light &rect = lights[0], &disc = lights[1], &tube = lights[2], &sun = lights[3];
-    EXPECT_EQ(rect.kind, LightKind::rect);
-    EXPECT_EQ(rect.position, glm::dvec3(1, 2, 3));
-    EXPECT_EQ(rect.direction, glm::dvec3(0, -1, 0));
-    EXPECT_EQ(rect.axis, glm::dvec3(0, 0, 1));
-    EXPECT_EQ(rect.width, 3);
-    EXPECT_EQ(rect.height, 2);
-    EXPECT_EQ(rect.intensity, 500);
-    EXPECT_EQ(rect.range, 9);
-    EXPECT_TRUE(rect.two_sided);
-    EXPECT_EQ(disc.kind, LightKind::disc);
-    EXPECT_EQ(disc.radius, 0.25f);
-    EXPECT_FALSE(disc.two_sided);
-    EXPECT_TRUE(std::isinf(disc.range));
-    EXPECT_EQ(tube.kind, LightKind::tube);
-    EXPECT_EQ(tube.length, 1.5f);
-    EXPECT_EQ(tube.radius, 0.02f);
-    EXPECT_NEAR(glm::length(tube.axis - glm::dvec3(0, 0.6, 0.8)), 0, 1e-15) << "a tube's axis is its own";
-    EXPECT_EQ(sun.angle, 0.0093f);
-    EXPECT_EQ(read(R"({"type": "directional", "angle": 3.1415927})")[0].angle, gpu::PI)
-        << "a rounded pi is one";
-}
-
-TEST(LightsJson, ImportanceOfAnyType) {
-    for (const std::string type : {"point", "spot", "directional", "rect", "disc", "tube"}) {
-        const std::string light = "{\"type\": \"" + type + "\"";
-        const auto lights =
-            read(light + "}, " + light + R"(, "importance": "auto"}, )" + light +
-                 R"(, "importance": "important"}, )" + light + R"(, "importance": "not_important"})");
-        ASSERT_EQ(lights.size(), 4u) << type;
-        EXPECT_EQ(lights[0].importance, Importance::automatic) << type;
-        EXPECT_EQ(lights[1].importance, Importance::automatic) << type;
-        EXPECT_EQ(lights[2].importance, Importance::important) << type;
-        EXPECT_EQ(lights[3].importance, Importance::not_important) << type;
+// As in KHR_lights_punctual.
+TEST(LightsJson, TypesAndTheirDefaults) {
+    const auto lights = read(R"({"type": "directional"}, {"type": "point"}, {"type": "spot"},
+                                {"type": "rect"}, {"type": "disc"}, {"type": "tube"})");
+    ASSERT_EQ(lights.size(), everyLightKind().size());
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        EXPECT_EQ(lights[i].kind, everyLightKind()[i]);
+        EXPECT_EQ(lights[i].color, glm::vec3(1));
+        EXPECT_EQ(lights[i].intensity, 1);
+        EXPECT_TRUE(std::isinf(lights[i].range));
+        EXPECT_EQ(lights[i].direction, glm::dvec3(0, 0, -1));
+        EXPECT_EQ(lights[i].inner_cone, 0);
+        EXPECT_FLOAT_EQ(lights[i].outer_cone, std::acos(-1.0f) / 4);
     }
 }
 
-TEST(LightsJson, PointsAndSpotsAskForAShadow) {
-    const auto lights = read(R"({"type": "point", "shadow": true}, {"type": "spot", "shadow": true},
-                                {"type": "spot", "shadow": false}, {"type": "point"})");
-    EXPECT_TRUE(lights[0].shadow && lights[1].shadow);
-    EXPECT_FALSE(lights[2].shadow || lights[3].shadow);
+// ---- keys of each type -------------------------------------------------------------------------------
+
+namespace {
+
+// A key of a light, the types that take it, and what it sets.
+struct LightKey {
+    const char* text;
+    std::vector<LightKind> types;
+    void (*set)(Light&) = nullptr;
+};
+
+std::vector<LightKey> lightKeys() {
+    using K = LightKind;
+    const std::vector<K>& any = everyLightKind();
+    return {
+        {R"("name": "lamp")", any, [](Light& l) { l.name = "lamp"; }},
+        {R"("position": [1, 2, 3])", any, [](Light& l) { l.position = glm::dvec3(1, 2, 3); }},
+        {R"("direction": [0, -2, 0])", any, [](Light& l) { l.direction = glm::dvec3(0, -1, 0); }},
+        {R"("color": [1, 0.5, 0])", any, [](Light& l) { l.color = glm::vec3(1, 0.5f, 0); }},
+        {R"("intensity": 40)", any, [](Light& l) { l.intensity = 40; }},
+        {R"("range": 6)", any,
+         [](Light& l) {
+             if (l.kind != K::directional) l.range = 6;  // a directional light has none
+         }},
+        {R"("importance": "auto")", any, [](Light&) {}},
+        {R"("importance": "important")", any, [](Light& l) { l.importance = Importance::important; }},
+        {R"("importance": "not_important")", any, [](Light& l) { l.importance = Importance::not_important; }},
+        {R"("shadow": true)", {K::point, K::spot}, [](Light& l) { l.shadow = true; }},
+        {R"("shadow": false)", {K::point, K::spot}, [](Light&) {}},
+        {R"("angle": 0.0093)", {K::directional}, [](Light& l) { l.angle = 0.0093f; }},
+        {R"("angle": 3.1415927)", {K::directional}, [](Light& l) { l.angle = gpu::PI; }},  // a rounded pi
+        {R"("spot": {})", {K::spot}, [](Light&) {}},
+        {R"("spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2})",
+         {K::spot},
+         [](Light& l) { l.inner_cone = 0.1f, l.outer_cone = 0.2f; }},
+        {R"("innerConeAngle": 0.3)", {K::spot}, [](Light& l) { l.inner_cone = 0.3f; }},
+        {R"("outerConeAngle": 0.4)", {K::spot}, [](Light& l) { l.outer_cone = 0.4f; }},
+        {R"("size": [3, 2])", {K::rect}, [](Light& l) { l.width = 3, l.height = 2; }},
+        {R"("axis": [0, 2, 0])", {K::rect, K::tube}, [](Light& l) { l.axis = glm::dvec3(0, 1, 0); }},
+        {R"("twoSided": true)", {K::rect, K::disc}, [](Light& l) { l.two_sided = true; }},
+        {R"("radius": 0.25)", {K::disc, K::tube}, [](Light& l) { l.radius = 0.25f; }},
+        {R"("length": 1.5)", {K::tube}, [](Light& l) { l.length = 1.5f; }},
+        {R"("width": 1)", {}},
+        {R"("two_sided": true)", {}},
+    };
 }
+
+auto membersOf(const Light& l) {
+    return std::tuple(l.name, l.kind, l.color, l.intensity, l.range, l.inner_cone, l.outer_cone, l.angle,
+                      l.width, l.height, l.radius, l.length, l.two_sided, l.importance, l.shadow, l.node,
+                      l.position, l.direction, l.axis, l.source);
+}
+
+}  // namespace
+
+class LightsJsonOf : public testing::TestWithParam<LightKind> {};
+
+// A key that a type does not take is probably a mistake in the type, so it is an error.
+TEST_P(LightsJsonOf, EachKeySetsItsMemberOrBelongsToOtherTypes) {
+    for (const LightKey& key : lightKeys()) {
+        SCOPED_TRACE(key.text);
+        const std::string light = "{\"type\": \"" + std::string(nameOf(GetParam())) + "\", " + key.text + "}";
+        if (std::ranges::count(key.types, GetParam()) > 0) {
+            Light expected;
+            expected.kind = GetParam();
+            key.set(expected);
+            EXPECT_EQ(membersOf(read(light).at(0)), membersOf(expected));
+        } else {
+            const char* const why = key.types.empty() ? "light 0: " : "applies only to";
+            EXPECT_NE(lightsFault("{\"lights\": [" + light + "]}").find(why), std::string::npos);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LightsJsonOf, testing::ValuesIn(everyLightKind()), lightKindName);
+
+// ---- single keys -------------------------------------------------------------------------------------
 
 TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
     const std::pair<const char*, glm::dvec3> cases[] = {
@@ -135,34 +146,9 @@ TEST(LightsJson, TheAxisStandsAtRightAnglesToTheDirection) {
         const Light light = read(std::string("{\"type\": \"rect\", ") + words + "}")[0];
         EXPECT_NEAR(glm::length(light.axis - axis), 0, 1e-15) << words;
     }
-    const Light tube = read(R"({"type": "tube", "direction": [1, 0, 0]})")[0];
-    EXPECT_EQ(tube.axis, glm::dvec3(0, 0, 1));
-}
-
-// A key without effect for the given type is probably a mistake in the type, so it is an error.
-TEST(LightsJson, EveryKeyBelongsToItsTypes) {
-    const std::pair<const char*, std::set<std::string>> keys[] = {
-        {R"("angle": 0.1)", {"directional"}},
-        {R"("spot": {})", {"spot"}},
-        {R"("innerConeAngle": 0.1)", {"spot"}},
-        {R"("outerConeAngle": 0.1)", {"spot"}},
-        {R"("size": [1, 1])", {"rect"}},
-        {R"("axis": [1, 0, 0])", {"rect", "tube"}},
-        {R"("twoSided": true)", {"disc", "rect"}},
-        {R"("radius": 1)", {"disc", "tube"}},
-        {R"("length": 1)", {"tube"}},
-        {R"("width": 1)", {}},
-        {R"("two_sided": true)", {}},
-    };
-    for (const auto& [key, types] : keys)
-        for (const std::string type : {"point", "spot", "directional", "rect", "disc", "tube"}) {
-            const std::string light = "{\"type\": \"" + type + "\", " + key + "}";
-            const std::string error = lightsFault("{\"lights\": [" + light + "]}");
-            EXPECT_EQ(error.empty(), types.contains(type)) << light << ": " << error;
-            if (!types.empty() && !error.empty()) {
-                EXPECT_NE(error.find("applies only to"), error.npos) << error;
-            }
-        }
+    EXPECT_EQ(read(R"({"type": "tube", "direction": [1, 0, 0]})")[0].axis, glm::dvec3(0, 0, 1));
+    const Light tube = read(R"({"type": "tube", "axis": [0, 3, 4]})")[0];
+    EXPECT_NEAR(glm::length(tube.axis - glm::dvec3(0, 0.6, 0.8)), 0, 1e-15) << "a tube's axis is its own";
 }
 
 TEST(LightsJson, ErrorsNameFileLightAndField) {
