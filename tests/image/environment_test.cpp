@@ -7,6 +7,7 @@
 #include "shared/contract/environment.h"
 #include "shared/environment/environment_maps.h"
 #include "shared/environment/octahedral_map.h"
+#include "tests/image/skies.h"
 #include "tests/image/square.h"
 #include "tests/support/layer_formulas.h"
 
@@ -24,42 +25,6 @@
 
 namespace diptych::tests {
 namespace {
-
-const std::vector<Channel> shown{Channel::lit,         Channel::lit_diffuse,     Channel::lit_specular,
-                                 Channel::lit_ambient, Channel::lit_environment, Channel::material_id};
-
-Settings underSky(Size size = {16, 16}) {
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.size = size;
-    settings.ibl_samples = 32;
-    return settings;
-}
-
-Environment constantSky(float radiance) {
-    return {"sky", Image(8, 4, 3, radiance)};
-}
-
-// Each of +X, -X, +Y, -Y, +Z, -Z has its own colour, within 45 degrees.
-const std::array<glm::vec3, 6> painted{{{1, 0, 0}, {0, 1, 1}, {0, 1, 0}, {1, 0, 1}, {0, 0, 1}, {1, 1, 0}}};
-const std::array<glm::vec3, 6> axes{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
-std::size_t axisOf(const glm::dvec3& d) {
-    const glm::dvec3 a = glm::abs(d);
-    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-    return static_cast<std::size_t>(2 * axis + (d[axis] < 0 ? 1 : 0));
-}
-Environment paintedSky() {
-    Environment sky{"painted", Image(64, 32, 3)};
-    for (int y = 0; y < 32; ++y)
-        for (int x = 0; x < 64; ++x) {
-            // scene.h: azimuth 0 at -Z, positive towards +X.
-            const double azimuth = 2 * std::numbers::pi * (x + 0.5) / 64 - std::numbers::pi,
-                         polar = std::numbers::pi * (y + 0.5) / 32;
-            const glm::vec3 color = painted[axisOf({std::sin(polar) * std::sin(azimuth), std::cos(polar),
-                                                    -std::sin(polar) * std::cos(azimuth)})];
-            for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = color[c];
-        }
-    return sky;
-}
 
 // The square, a smooth metal, mirrors what is behind the camera; the background shows what is in front of
 // it.
@@ -267,88 +232,6 @@ TEST(EnvironmentLight, OcclusionTexturesDimIt) {
             expectColor(colorAt(dimmed[i], term, 3, 0), 0.25f * colorAt(open[i], term, 3, 0), 1e-6f,
                         "a quarter");
             EXPECT_GT(colorAt(open[i], term, 3, 0).x, 0.01f);
-        }
-}
-
-// Frames of builtin:lightmaps under a uniform sky alone. The first tile's material has no lightmap, the
-// last one's is unlit. The wall's lightmap is set to black, which still counts as a lightmap.
-constexpr float unmapped = 4, unlit = 8;
-class LightmapsUnderSky {
-public:
-    LightmapsUnderSky() {
-        scene.environment = constantSky(0.5f);
-        scene.lights.clear();
-        Material& wall = scene.materials[1];
-        const auto image = static_cast<std::size_t>(
-            scene.textures[static_cast<std::size_t>(wall.lightmap_texture.texture)].image);
-        std::ranges::fill(scene.images[image].rgba32, 0.0f);
-    }
-    std::vector<Frame> paths(GBufferEncoding gbuffer) const {
-        Settings settings = underSky({64, 36});
-        settings.gbuffer = gbuffer;
-        return bothPaths(scene, settings, shown);
-    }
-    Frame reference() const {
-        Settings settings = underSky({64, 36});
-        settings.path = Path::reference;
-        RenderOptions options;
-        options.channels = shown;
-        options.runs = 0;
-        return drawAll(scene, {settings}, options).front();
-    }
-
-    Scene scene = loadScene("builtin:lightmaps");
-};
-
-// A base lit by a lightmap gets no environment light; every other base does. In every encoding.
-TEST(EnvironmentLight, BasesWithALightmapTakeNothingOfIt) {
-    LightmapsUnderSky lightmaps;
-    std::set<float> mapped;
-    const auto check = [&](const std::vector<Frame>& frames, const std::string& what) {
-        for (const Frame& frame : frames)
-            for (int y = 0; y < 36; ++y)
-                for (int x = 0; x < 64; ++x) {
-                    const float id = colorAt(frame, Channel::material_id, x, y).x;
-                    if (id < 0 || id == unlit) continue;
-                    ASSERT_GT(colorAt(frame, Channel::lit_specular, x, y).g, 1e-3f)
-                        << frame.name << what << id;
-                    if (id == unmapped)
-                        ASSERT_GT(colorAt(frame, Channel::lit_diffuse, x, y).g, 0.1f) << frame.name << what;
-                    else
-                        ASSERT_EQ(colorAt(frame, Channel::lit_diffuse, x, y), glm::vec3(0))
-                            << frame.name << what << id;
-                    mapped.insert(id);
-                }
-    };
-    for (const GBufferEncoding gbuffer : {GBufferEncoding::compact, GBufferEncoding::standard})
-        check(lightmaps.paths(gbuffer), fmt::format(" {} ", nameOf(gbuffer)));
-    const std::vector<Frame> full = lightmaps.paths(GBufferEncoding::full);
-    check(full, " full ");
-    EXPECT_EQ(mapped.size(), 8u);
-    for (const Channel mode : shown)
-        EXPECT_EQ(differingPixels(full[0].channels.at(mode), full[1].channels.at(mode)), 0u)
-            << debugMode(mode).name;
-    // The floor's lightmap exceeds the range of 9.9.9.e5.
-    lightmaps.scene.materials[0].lightmap_intensity = 1e4f;
-    check(lightmaps.paths(GBufferEncoding::standard), " wide ");
-}
-
-// The reference samples until its 95 % confidence interval is within 1 %. The worst of
-// some thousand pixels may deviate by three times that (one deviated by 2.1 %).
-TEST(EnvironmentLight, WithLightmapsIsTheReferences) {
-    const LightmapsUnderSky lightmaps;
-    const Frame truth = lightmaps.reference();
-    for (const Frame& frame : lightmaps.paths(GBufferEncoding::full))
-        for (const Channel mode : {Channel::lit_diffuse, Channel::lit_specular, Channel::lit_environment}) {
-            double sum = 0, off = 0;
-            for (std::size_t i = 0; i < truth.channels.at(mode).data.size(); ++i) {
-                const double a = frame.channels.at(mode).data[i], b = truth.channels.at(mode).data[i];
-                EXPECT_NEAR(a, b, 0.03 * b + 1e-6) << frame.name << debugMode(mode).name << i;
-                sum += b;
-                off += a - b;
-            }
-            EXPECT_GT(sum, 1) << debugMode(mode).name;
-            EXPECT_LT(std::abs(off), 1e-3 * sum) << frame.name << debugMode(mode).name;
         }
 }
 

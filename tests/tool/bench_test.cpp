@@ -176,7 +176,6 @@ TEST(Bench, WhatItCannotDoIsNamed) {
     EXPECT_TRUE(
         runTool(folder, "bench --table area").failedOver("--table area: takes modes, msaa, growth or"));
     EXPECT_TRUE(runTool(folder, "bench --compile-on vega10").failedOver("--compile-on: bench needs --table"));
-    EXPECT_TRUE(runTool(folder, "bench no.glb").failedOver("no.glb"));
     EXPECT_TRUE(runTool(folder, "bench --paths deferred --assign per_object").failedOver("nothing to time"));
     EXPECT_FALSE(fs::exists(folder / "diptych-bench"));
 }

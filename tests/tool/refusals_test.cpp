@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Refused inputs, for all or one of several scenes, and how scripts learn of them; and sharing an
-// exposure.
+// Refused inputs, for all or one of several scenes; and sharing an exposure.
 #include "tests/tool/run.h"
 
 #include <sys/stat.h>
@@ -35,18 +34,6 @@ TEST(Refusals, OneBadSceneOfSeveralIsAnError) {
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
-// With --json an error is an object on stdout, too.
-TEST(Refusals, AnErrorIsJsonWhereJsonIsAskedFor) {
-    const Folder folder;
-    for (const std::string command :
-         {"compare --json no.glb", "diff a.exr b.exr --json", "render --json --debug x"}) {
-        const Ran ran = runTool(folder, command);
-        EXPECT_EQ(ran.code, 2);
-        const Json json = Json::parse(ran.out);
-        EXPECT_EQ("diptych: " + json["error"].get<std::string>() + "\n", ran.err);
-    }
-}
-
 TEST(Refusals, AnOutputThatCannotBeWrittenIsSaidBeforeRendering) {
     const Folder folder;
     folder.write("file", "");
@@ -67,17 +54,6 @@ TEST(Refusals, AnOutputThatCannotBeWrittenIsSaidBeforeRendering) {
                           .err.find(std::string("diptych: ") + why),
                       std::string::npos)
                 << out;
-}
-
-TEST(Refusals, WhyStdoutCannotBeWrittenIsSaid) {
-    const Folder folder;
-    // The manual is written in several pieces: errno of the first failure counts.
-    for (const char* command : {"devices", "--manual"}) {
-        const Ran ran = runTool(folder, std::string(command) + " >/dev/full");
-        EXPECT_EQ(ran.code, 2) << command;
-        EXPECT_NE(ran.err.find("stdout: cannot write: No space left on device"), std::string::npos)
-            << command << ran.err;
-    }
 }
 
 // An image takes the exposure of another.

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// What all commands do alike: help, bad input, outputs, interruption, documents. A row for each command.
+#include "tests/tool/faults.h"
+#include "tests/tool/running.h"
+#include "tests/tool/sweep.h"
+
+#include <chrono>
+#include <ostream>
+#include <set>
+#include <sstream>
+
+namespace diptych {
+namespace {
+
+enum class Draws { nothing, scenes, window };
+struct CommandRow {
+    std::string name;
+    Draws draws;
+    bool writes;                      // takes -o, or does not check it before its inputs
+    std::string words;                // needed beside its inputs
+    std::string missing;              // inputs that are not there
+    std::vector<std::string> work{};  // takes a second or two; empty: no output to be interrupted
+    std::string file{};               // of the output: the bytes that --json prints
+    std::set<std::string> empty{};    // JSON paths of empty strings in them
+};
+void PrintTo(const CommandRow& row, std::ostream* out) {
+    *out << row.name;
+}
+
+std::vector<CommandRow> commandRows() {
+    const std::vector<std::string> sweepWork{
+        "builtin:points",
+        "--size",
+        "96x54",
+        "--runs",
+        "20",
+        "--grid",
+        R"({"settings":{"path":["deferred","forward_plus"],"gbuffer":["compact","full"]}})"};
+    return {
+        {"compare",
+         Draws::scenes,
+         true,
+         "",
+         "no/such",
+         {"builtin:points", "--size", "192x108", "--runs", "5"},
+         "report.json",
+         {"/comparisons/*/camera/choice", "/frames/*/camera/choice"}},
+        {"render",
+         Draws::scenes,
+         true,
+         "",
+         "no/such",
+         {"builtin:points", "--size", "640x360", "--runs", "20"},
+         "",
+         {"/frames/*/camera/choice"}},
+        {"diff", Draws::nothing, true, "", "no/such no/other"},
+        {"tradeoff", Draws::scenes, true, "", "no/such", sweepWork, "tradeoff.json", {"/cameras/*"}},
+        {"explain",
+         Draws::scenes,
+         true,
+         "",
+         "no/such",
+         {"builtin:points", "--gbuffer", "compact", "--size", "192x108"},
+         "explain.json"},
+        {"choose", Draws::scenes, true, "--max-error 1", "no/such", sweepWork},
+        {"audit",
+         Draws::scenes,
+         true,
+         "",
+         "no/such",
+         {"builtin:triangle", "--size", "32x18", "--quantity", "offset,scale"},
+         "audit.json",
+         {"/quantities/*/unit"}},
+        {"plan", Draws::scenes, false, "", "no/such"},
+        {"view", Draws::window, true, "", "no/such"},
+        {"bench",
+         Draws::scenes,
+         true,
+         "",
+         "no/such",
+         {"builtin:points", "--size", "64x36", "--runs", "5", "--light-counts", "1,4"},
+         "",
+         {"/layers/compiler"}},
+        {"calibrate", Draws::nothing, false, "", "no/such"},
+        {"merge", Draws::nothing, true, "", "no/such"},
+        {"submit", Draws::nothing, true, "", "no/such"},
+        {"accept", Draws::nothing, true, "", "no/such"},
+        {"devices", Draws::nothing, false, "", "--device no/such"},
+    };
+}
+
+class EveryCommand : public testing::TestWithParam<CommandRow> {
+protected:
+    std::string line(const std::string& arguments) const {
+        return row_.name + " " + row_.words + " " + arguments;
+    }
+    Ran run(const std::string& arguments) const { return runTool(folder_, line(arguments)); }
+    // Paths below the folder, without those of the shell's output.
+    std::set<std::string> written() const {
+        std::set<std::string> paths;
+        for (const auto& [path, text] : contentsBelow(folder_.path()))
+            if (path != ".stdout" && path != ".stderr") paths.insert(path);
+        return paths;
+    }
+
+    const CommandRow& row_ = GetParam();
+    const Folder folder_;
+};
+
+TEST_P(EveryCommand, HelpsOnStdoutWithAnExample) {
+    const Ran ran = runTool(folder_, row_.name + " --help");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_NE(ran.out.find("Example: diptych " + row_.name), std::string::npos) << ran.out;
+    EXPECT_EQ(ran.err, "");
+    EXPECT_TRUE(runTool(folder_, row_.name + " --help >/dev/full")
+                    .failedOver("stdout: cannot write: No space left on device"));
+}
+
+// Each is one line, with --json also in an object, and nothing is written.
+TEST_P(EveryCommand, NamesBadInput) {
+    folder_.write("empty.glb", "");
+    folder_.write("bad.gltf", "{ \"asset\": ");
+    std::vector<std::pair<std::string, std::string>> bad{{row_.missing, "no/such"},
+                                                         {row_.missing + " --paint", "--paint"}};
+    if (row_.draws != Draws::nothing)
+        bad.insert(bad.end(), {{"empty.glb", "empty.glb: is empty"},
+                               {"bad.gltf", "bad.gltf: is not JSON"},
+                               {"builtin:nothing", "builtin:nothing: no such scene"},
+                               {"--gbuffer huge", "--gbuffer huge"},
+                               {"--size 0x9", "--size 0x9"},
+                               {"builtin:triangle --device nosuch", "--device nosuch: no such device"}});
+    if (row_.draws == Draws::scenes)
+        bad.insert(bad.end(), {{"builtin:triangle --camera 99", "--camera \"99\""},
+                               {"builtin:triangle --lights disco:3", "--lights disco:3"}});
+    if (!row_.writes) bad.emplace_back(row_.missing + " -o p", "-o p: " + row_.name + " writes no file");
+    const std::set<std::string> before = written();
+    for (const auto& [words, fault] : bad) {
+        const Ran ran = run(words + " --json");
+        EXPECT_TRUE(ran.failedOver(fault)) << words;
+        EXPECT_EQ("diptych: " + parsed(ran).value("error", "") + "\n", ran.err) << words;
+        EXPECT_EQ(written(), before) << words;
+    }
+    EXPECT_EQ(run(row_.missing).out, "");
+}
+
+class WritingCommand : public EveryCommand {};
+
+// Said before anything is drawn.
+TEST_P(WritingCommand, LeavesFilesOfOthersAlone) {
+    folder_.write("theirs/thesis.txt", "years of work");
+    folder_.write("file", "");
+    const std::set<std::string> before = written();
+    EXPECT_TRUE(run("builtin:triangle -o theirs").failedOver("--force"));
+    EXPECT_TRUE(run("builtin:triangle -o file/inside").failedOver("file/inside: Not a directory"));
+    EXPECT_EQ(written(), before);
+    EXPECT_EQ(contentsOf(folder_ / "theirs/thesis.txt"), "years of work");
+}
+
+// A signal leaves a whole output or none. Then the same command ends, and nothing of unfinished work is left.
+// What it prints is a document that says its schema.
+TEST_P(WritingCommand, GoesOnAfterAnInterruption) {
+    std::vector<std::string> words{row_.name, "-q", "--json", "-o", "o"};
+    std::istringstream needed(row_.words);
+    for (std::string word; needed >> word;) words.push_back(word);
+    words.insert(words.end(), row_.work.begin(), row_.work.end());
+    for (const auto& [signal, milliseconds] : {std::pair{SIGINT, 200}, {SIGTERM, 400}, {SIGKILL, 600}}) {
+        Running tool(folder_, words);
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        if (!tool.ended()) ::kill(tool.process(), signal);
+        ASSERT_TRUE(soon([&] { return tool.ended(); }));
+        const bool died = WIFSIGNALED(tool.wait());
+        EXPECT_TRUE(died || WEXITSTATUS(tool.wait()) == 0) << tool.err();
+        if (died) {
+            EXPECT_EQ(WTERMSIG(tool.wait()), signal);
+            EXPECT_LE(std::ranges::count(tool.err(), '\n'), 1) << tool.err();
+        }
+        EXPECT_TRUE(signal == SIGKILL || leftoversIn(folder_.path()).empty()) << signal;
+    }
+    const Ran ran = runTool(folder_, shellWords(words));
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Json document = parsed(ran);
+    EXPECT_GE(document.value("schema", 0), 1);
+    EXPECT_EQ(emptyIn(document), row_.empty);
+    if (!row_.file.empty()) {
+        EXPECT_TRUE(ran.out == contentsOf(folder_ / ("o/" + row_.file))) << "byte for byte";
+    }
+    EXPECT_EQ(diptych::namesIn(folder_.path()), (std::vector<std::string>{".stderr", ".stdout", "o"}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Row, EveryCommand, testing::ValuesIn(commandRows()),
+                         [](const auto& row) { return row.param.name; });
+
+std::vector<CommandRow> writingRows() {
+    std::vector<CommandRow> rows = commandRows();
+    std::erase_if(rows, [](const CommandRow& row) { return row.work.empty(); });
+    return rows;
+}
+INSTANTIATE_TEST_SUITE_P(Row, WritingCommand, testing::ValuesIn(writingRows()),
+                         [](const auto& row) { return row.param.name; });
+
+// A new command needs a row.
+TEST(Commands, HaveARowEach) {
+    const Folder folder;
+    const Ran ran = runTool(folder, "--help");
+    EXPECT_EQ(ran.code, 0);
+    std::istringstream lines(ran.out.substr(ran.out.find("Subcommands:\n") + 13));
+    std::vector<std::string> listed, rows;
+    for (std::string text; std::getline(lines, text) && text.starts_with("  ");)
+        listed.push_back(text.substr(2, text.find(' ', 2) - 2));
+    for (const CommandRow& row : commandRows()) rows.push_back(row.name);
+    EXPECT_EQ(rows, listed);
+    EXPECT_EQ(runTool(folder, "--version").code, 0);
+    EXPECT_TRUE(runTool(folder, "").failedOver("--help"));
+    EXPECT_TRUE(runTool(folder, "paint").failedOver("paint"));
+    EXPECT_TRUE(runTool(folder, "--manual >/dev/full").failedOver("No space left on device"));
+    EXPECT_TRUE(runTool(folder, "devices >/dev/full").failedOver("No space left on device"));
+}
+
+}  // namespace
+}  // namespace diptych
