@@ -95,7 +95,6 @@ TEST(CommandLine, HelpShowsWhatTheCommandReads) {
     EXPECT_NE(help("compare").find("--times "), std::string::npos);
     for (const char* option : {"--debug ", "--frames ", "--fps "})
         EXPECT_NE(help("render").find(option), std::string::npos) << option;
-    EXPECT_NO_THROW(parseCommandLine({"devices", "--size", "3x3"})) << "it is accepted yet";
 }
 
 TEST(CommandLine, HelpSaysWhatAnOptionMeansInItsCommand) {

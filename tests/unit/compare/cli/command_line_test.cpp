@@ -12,7 +12,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <sstream>
 
 namespace diptych {
 
@@ -221,46 +223,12 @@ TEST(CommandLine, WhatIsChosenFor) {
 }
 
 TEST(CommandLine, WhatDiffCompares) {
-    const auto o = parsedAs<DiffLine>({"diff",
-                                       "a.exr",
-                                       "b.exr",
-                                       "--metric",
-                                       "rmse",
-                                       "--tolerance",
-                                       "0.1",
-                                       "--ppd",
-                                       "60",
-                                       "--channels",
-                                       "lit,normal*",
-                                       "--map",
-                                       "albedo=d.R,d.G,d.B",
-                                       "--map",
-                                       "ao=x.Y",
-                                       "--mask",
-                                       "m.png",
-                                       "--ids",
-                                       "3,5",
-                                       "--ignore-edges",
-                                       "2",
-                                       "--crop",
-                                       "1,2,30x40",
-                                       "--shift",
-                                       "1",
-                                       "--blur",
-                                       "0.5",
-                                       "--warn",
-                                       "0.05",
-                                       "--exposures",
-                                       "4",
-                                       "--start-exposure",
-                                       "-2",
-                                       "--stop-exposure",
-                                       "3",
-                                       "--tolerances",
-                                       "t.json",
-                                       "-o",
-                                       "d",
-                                       "--json"});
+    std::istringstream words(
+        "diff a.exr b.exr --metric rmse --tolerance 0.1 --ppd 60 --channels lit,normal* --map "
+        "albedo=d.R,d.G,d.B --map ao=x.Y --mask m.png --ids 3,5 --ignore-edges 2 --crop 1,2,30x40 --shift 1 "
+        "--blur 0.5 --warn 0.05 --exposures 4 --start-exposure -2 --stop-exposure 3 --tolerances t.json -o d "
+        "--json");
+    const auto o = parsedAs<DiffLine>({std::istream_iterator<std::string>(words), {}});
     EXPECT_EQ(o.images, (std::vector<std::string>{"a.exr", "b.exr"}));
     EXPECT_EQ(o.diff.metric, "rmse");
     EXPECT_EQ(o.diff.tolerance, 0.1);
@@ -324,7 +292,6 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
         {{"paint"}, "paint"},
         {{"--paint"}, "--help"},
         {{"compare", "--paint"}, "--paint"},
-        {{"compare", "--siz", "4x4"}, "--siz"},
         {{"compare", "--size"}, "--size"},
         {{"compare", "--gbuffer", "huge"}, "--gbuffer huge"},
         {{"compare", "--size", "1x1", "--size", "2x2", "--size", "3x3"},
@@ -378,7 +345,6 @@ TEST(CommandLine, UsageErrorsAreOneLineAndNameTheWord) {
         {{"compare", "-q", "-v"}, "--verbose"},
         {{"compare", "--keep", "some"}, "--keep some: takes all, failing or none"},
         {{"compare", "--twice", "some"}, "--twice some: takes all, lit or none"},
-        {{"diff", "a.exr"}, "images"},
         {{"devices", "scene.glb"}, "scene.glb"},
     };
     for (const auto& [words, name] : wrong) {

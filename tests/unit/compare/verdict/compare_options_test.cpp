@@ -30,38 +30,31 @@ bool says(const std::vector<std::string>& lines, const std::string& text) {
 
 // Each condition of a Frame alone adds its own line, to the notes or to the failures.
 TEST(CompareOptions, EveryCounterHasItsLine) {
+    using Counters = FrameCounters;
     struct Cause {
-        FrameCounters counters;
+        void (*set)(Counters&);
         bool fails;
         std::string line;
     };
-    std::vector<Cause> causes(6);
-    causes[0] = {{},
-                 true,
-                 "lit of the capture differs from the timed pipeline at 2 pixels, so its channels "
-                 "may belong to another image"};
-    causes[0].counters.unreproduced_pixels = 2;
-    causes[1] = {{}, false, "1 light list overflowed, so every light was evaluated there: exact, but slow"};
-    causes[1].counters.overflowed_lists = 1;
-    causes[2] = {{},
-                 false,
-                 "3 of 600 shadow pages did not fit in --clipmap-pages 512; a coarser level "
-                 "replaces them"};
-    causes[2].counters.shadow_pages.fallback = 3;
-    causes[2].counters.shadow_pages.requested = 600;
-    causes[3] = {{},
-                 false,
-                 "4 blended fragments of 2 pixels did not fit in --transparency-layers 8; their "
-                 "mean is blended as one layer behind the others"};
-    causes[3].counters.unsorted.fragments = 4;
-    causes[3].counters.unsorted.pixels = 2;
-    causes[4] = {{},
-                 false,
-                 "--light-cutoff 0 removes 12.5 % of the unshadowed flux from lights without a "
-                 "range"};
-    causes[4].counters.energy_cut = 0.125;
-    causes[5] = {{}, true, "lit is NaN or infinite at 1 pixel"};
-    causes[5].counters.nonfinite_pixels = 1;
+    const Cause causes[] = {
+        {[](Counters& c) { c.nonfinite_pixels = 1; }, true, "lit is NaN or infinite at 1 pixel"},
+        {[](Counters& c) { c.overflowed_lists = 1; }, false,
+         "1 light list overflowed, so every light was evaluated there: exact, but slow"},
+        {[](Counters& c) {
+             c.shadow_pages = {600, 597, 3, 0};
+         },
+         false, "3 of 600 shadow pages did not fit in --clipmap-pages 512; a coarser level replaces them"},
+        {[](Counters& c) {
+             c.unsorted = {4, 2};
+         },
+         false,
+         "4 blended fragments of 2 pixels did not fit in --transparency-layers 8; their mean is blended as "
+         "one layer behind the others"},
+        {[](Counters& c) { c.unreproduced_pixels = 2; }, true,
+         "lit of the capture differs from the timed pipeline at 2 pixels, so its channels may belong to "
+         "another image"},
+        {[](Counters& c) { c.energy_cut = 0.125; }, false,
+         "--light-cutoff 0 removes 12.5 % of the unshadowed flux from lights without a range"}};
     const std::vector<Frame> frames = bothFrames("one.glb");
     const Comparison plain = compared(frames, {}).comparisons.at(0);
     const auto sorted = [](std::vector<std::string> lines) {
@@ -71,7 +64,7 @@ TEST(CompareOptions, EveryCounterHasItsLine) {
     for (const Cause& cause : causes)
         for (const std::size_t side : {0u, 1u}) {
             std::vector<Frame> changed = frames;
-            changed[side].counters = cause.counters;
+            cause.set(changed[side].counters);
             std::vector<std::string> notes = plain.notes, failures = plain.failures;
             (cause.fails ? failures : notes).push_back(frames[side].name + ": " + cause.line);
             const Comparison found = compared(changed, {}).comparisons.at(0);
