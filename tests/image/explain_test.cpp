@@ -7,6 +7,7 @@
 #include "compare/render/channel_shading.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/image/scenes.h"
+#include "tests/support/srgb.h"
 
 #include <fmt/format.h>
 
@@ -36,10 +37,6 @@ struct Fault {
     std::function<void(float*)> plant;
 };
 
-double srgbDecoded(double x) {
-    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
-
 std::vector<Fault> faults() {
     const auto each = [](const std::function<double(double)>& of) {
         return [of](float* p) {
@@ -55,7 +52,7 @@ std::vector<Fault> faults() {
          }},
         {"roughness", "squared once more", [](float* p) { p[0] *= p[0]; }},
         {"metallic", "of plastic", [](float* p) { p[0] = 0; }},
-        {"albedo", "sRGB taken for linear", each(srgbDecoded)},
+        {"albedo", "sRGB taken for linear", each(decodedSrgb)},
         {"albedo", "4 bits", each([](double x) { return std::round(15 * x) / 15; })},
         {"emission", "clamped at 1", each([](double x) { return std::min(x, 1.0); })},
         {"occlusion", "left out", [](float* p) { p[0] = 1; }},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/image/injected_faults.h"
+#include "tests/support/srgb.h"
 
 #include "compare/explain/lighting_components.h"
 #include "shared/contract/debug_mode.h"
@@ -15,14 +16,6 @@
 
 namespace diptych::tests {
 namespace {
-
-double decoded(double x) {
-    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
-
-double encoded(double x) {
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-}
 
 using OfValue = std::function<double(double)>;
 
@@ -147,8 +140,8 @@ void addChannelFaults(std::vector<InjectedFault>& all) {
     add("metallic", "of plastic", each([](double) { return 0.0; }, 1));
     add("metallic", "halved", each([](double x) { return 0.5 * x; }, 1));
     add("metallic", "inverted", each([](double x) { return 1 - x; }, 1));
-    add("albedo", "sRGB taken for linear", each(encoded));
-    add("albedo", "decoded twice", each(decoded));
+    add("albedo", "sRGB taken for linear", each(encodedSrgb));
+    add("albedo", "decoded twice", each(decodedSrgb));
     add("albedo", "of 4 bits", each(bits(15)));
     add("albedo", "as BGR", bgr);
     add("albedo", "without its texture", each([](double) { return 0.5; }));
@@ -327,7 +320,8 @@ void addTermFaults(std::vector<InjectedFault>& all) {
             if (view.covered(i / 3)) image.data[i] += emitted_light.data[i] * through.data[i];
     });
     add("lit is BGR", {"sum of terms"}, output([](float* p, const float*) { std::swap(p[0], p[2]); }));
-    add("lit is encoded as sRGB", {"sum of terms"}, output([](float* p, const float*) { each(encoded)(p); }));
+    add("lit is encoded as sRGB", {"sum of terms"},
+        output([](float* p, const float*) { each(encodedSrgb)(p); }));
     add("lit is clamped at 0.3", {"sum of terms"},
         output([](float* p, const float*) { each([](double x) { return std::min(x, 0.3); })(p); }));
     add("exposure is doubled", {"exposure"}, exposed(2));

@@ -9,6 +9,7 @@
 #include "shared/scene/scene_view.h"
 #include "tests/image/material_checker.h"
 #include "tests/image/scenes.h"
+#include "tests/support/srgb.h"
 
 #include <functional>
 #include <map>
@@ -147,10 +148,6 @@ template <class Change>
 void recode(TextureImage& image, const Change& change) {
     for (std::size_t i = 0; i < image.rgba.size(); ++i)
         if (i % 4 < 3) image.rgba[i] = static_cast<std::uint8_t>(std::lround(255 * change(image.rgba[i])));
-}
-
-double encodedSrgb(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
 void swapComponents(TextureImage& image, std::size_t a, std::size_t b) {

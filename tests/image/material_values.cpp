@@ -2,6 +2,7 @@
 // Closed forms of the cells, written solely from the texts of glTF 2.0 and its extensions.
 #include "shared/contract/debug_mode.h"
 #include "tests/image/material_cells.h"
+#include "tests/support/srgb.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -93,11 +94,7 @@ glm::ivec4 codesAt(int image, int column, int row) {
 }
 
 CellDecode exactDecode() {
-    return {[](int code) {
-                const double s = code / 255.0;
-                return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-            },
-            [](int code) { return code / 255.0; }};
+    return {[](int code) { return decodedSrgb(code / 255.0); }, [](int code) { return code / 255.0; }};
 }
 
 // A camera's field of view is the image's height, for any width.

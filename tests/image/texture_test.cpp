@@ -2,6 +2,7 @@
 // Texels in pixels: 16-bit images exact to a single step, filters and wrap modes.
 #include "shared/material/textures.h"
 #include "tests/image/square.h"
+#include "tests/support/srgb.h"
 
 #include <limits>
 #include <set>
@@ -16,10 +17,6 @@ Scene deepSquare(std::uint16_t code) {
     const auto next = static_cast<std::uint16_t>(code + 1);
     image = {"deep", 2, 1, {}, {code, code, code, code, next, next, next, next}};
     return scene;
-}
-
-double linearFromSrgb(double s) {
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
 // A linear slot: code / 65535, and one step more. R16G16B16A16_UNORM is exact to float rounding.
@@ -45,7 +42,7 @@ TEST(Textures, SixteenBitsOfSrgbReachThePixel) {
         scene.materials[0].emissive = {1, 1, 1};
         for (const Frame& frame : draw(scene))
             for (const int x : {0, 3}) {
-                const auto expected = static_cast<float>(linearFromSrgb((code + (x == 3)) / 65535.0));
+                const auto expected = static_cast<float>(decodedSrgb((code + (x == 3)) / 65535.0));
                 // Float rounding of the value.
                 expectColor(colorAt(frame, albedo, x, 0), glm::vec3(expected), 1e-7f, frame.name);
                 expectColor(colorAt(frame, emission, x, 0), glm::vec3(expected), 1e-7f, frame.name);
@@ -60,7 +57,7 @@ TEST(Textures, SixteenBitsAreFilteredInLinearLight) {
     scene.images[0].rgba16 = {1000, 1000, 1000, 65535, 3000, 3000, 3000, 65535};
     scene.textures[0].sampler = {Wrap::clamp_to_edge, Wrap::clamp_to_edge, true, true, false, false};
     scene.materials[0].base_color_texture.texture = scene.materials[0].metallic_roughness_texture.texture = 0;
-    const double a = linearFromSrgb(1000 / 65535.0), b = linearFromSrgb(3000 / 65535.0);
+    const double a = decodedSrgb(1000 / 65535.0), b = decodedSrgb(3000 / 65535.0);
     // 8 pixels over 2 texels: pixel 3 is 3/8 of the way from the left centre to the right one.
     for (const Frame& frame : draw(scene, 8)) {
         EXPECT_NEAR(colorAt(frame, albedo, 3, 4).x, a + (b - a) * 3 / 8, (b - a) / 256) << frame.name;

@@ -7,6 +7,7 @@
 #include "compare/frames/frame_properties.h"
 #include "compare/verdict/pair_reports.h"
 #include "tests/image/scenes.h"
+#include "tests/support/srgb.h"
 
 #include <fmt/format.h>
 
@@ -118,10 +119,7 @@ TEST(TwoDevices, TexelsThatAreOneCodeOffAreFound) {
 TEST(TwoDevices, AWrongCurveIsFound) {
     const Report report = against([](Scene& scene) {
         // Codes decoded with a power of 2.2, re-encoded as sRGB.
-        eachBaseColorTexel(scene, [](int c) {
-            const double linear = std::pow(c / 255.0, 2.2);
-            return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
-        });
+        eachBaseColorTexel(scene, [](int c) { return 255 * encodedSrgb(std::pow(c / 255.0, 2.2)); });
     });
     EXPECT_NE(faults(report)[1].find("albedo "), std::string::npos) << faults(report)[1];
 }

@@ -3,6 +3,7 @@
 // and with samples outside the measurement.
 #include "shared/material/texture_probe.h"
 #include "tests/probe/probe.h"
+#include "tests/support/srgb.h"
 
 #include <gtest/gtest.h>
 
@@ -26,8 +27,7 @@ const TextureSampling& exactSampling() {
 std::size_t ambiguousCodes(const TexelDecode& srgb) {
     std::size_t count = 0;
     for (std::size_t code = 0; code < 256; ++code) {
-        const double value = double{srgb[code]};
-        const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+        const double encoded = encodedSrgb(double{srgb[code]});
         count += !(std::abs(encoded * 255 - static_cast<double>(code)) < 0.5);
     }
     return count;

@@ -2,6 +2,8 @@
 // Display colours as readers with normal, protan and deutan vision see them.
 #pragma once
 
+#include "tests/support/srgb.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,10 +28,7 @@ inline constexpr ColorVision colorVisions[] = {
 
 inline std::array<double, 3> linearOf(const Rgb8& color) {
     std::array<double, 3> linear{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double v = color[c] / 255.0;
-        linear[c] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    }
+    for (std::size_t c = 0; c < 3; ++c) linear[c] = decodedSrgb(color[c] / 255.0);
     return linear;
 }
 

@@ -8,6 +8,7 @@
 #include "shared/frame/debug_modes.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/model/motion.h"
+#include "tests/support/srgb.h"
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -58,10 +59,7 @@ struct LayerTexture {
     const TextureSlot& of(const Material& m) const { return m.*materialSlots[slot].texture; }
     // The texel's components, 0 to 1, as the channel has them; colours are sRGB.
     glm::dvec3 read(const glm::dvec4& texel) const {
-        const auto linear = [](double code) {
-            return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-        };
-        if (components == "rgb") return {linear(texel.r), linear(texel.g), linear(texel.b)};
+        if (components == "rgb") return {decodedSrgb(texel.r), decodedSrgb(texel.g), decodedSrgb(texel.b)};
         return {texel[static_cast<int>(std::string("rgba").find(components))], 0, 0};
     }
 };

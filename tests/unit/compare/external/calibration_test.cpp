@@ -10,6 +10,7 @@
 #include "shared/image/srgb.h"
 #include "shared/scene/load.h"
 #include "tests/support/campaign.h"
+#include "tests/support/srgb.h"
 
 #include <gtest/gtest.h>
 
@@ -63,10 +64,7 @@ std::vector<Fault> faults() {
     const auto lamp = [](Lamp which, double factor) {
         return [which, factor](Fake& f) { f.factors[which] = factor; };
     };
-    const auto encoded = [](double v) {
-        v = std::min(v, 1.0);
-        return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-    };
+    const auto encoded = [](double v) { return encodedSrgb(std::min(v, 1.0)); };
     const double pi = glm::radians(180.0);
     return {{"fov", "fov", [](Fake& f) { f.fov = 1; }},
             {"fov", "fov", [](Fake& f) { f.fov = -1; }},

@@ -2,6 +2,7 @@
 // Channels as images.
 #include "compare/image/channel_image.h"
 #include "tests/support/report_builder.h"
+#include "tests/support/srgb.h"
 
 #include <gtest/gtest.h>
 
@@ -125,11 +126,8 @@ TEST(ChannelImage, ErrorsBrightenMonotonicallyAndWhatIsBeyondStandsOut) {
     double last = -1;
     for (int i = 0; i <= 64; ++i) {
         const auto c = errorColor(i / 64.0);
-        const auto linear = [](double v) {
-            return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-        };
-        const double y =
-            0.2126 * linear(c[0] / 255.0) + 0.7152 * linear(c[1] / 255.0) + 0.0722 * linear(c[2] / 255.0);
+        const double y = 0.2126 * decodedSrgb(c[0] / 255.0) + 0.7152 * decodedSrgb(c[1] / 255.0) +
+                         0.0722 * decodedSrgb(c[2] / 255.0);
         EXPECT_GT(y, last) << i;
         last = y;
     }

@@ -6,6 +6,7 @@
 #include "compare/report/report.h"
 #include "tests/support/files.h"
 #include "tests/support/report_builder.h"
+#include "tests/support/srgb.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -32,10 +33,7 @@ struct Seen {
 };
 Seen seen(const Rgb& color) {
     double linear[3];
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double v = color[c] / 255.0;
-        linear[c] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    }
+    for (std::size_t c = 0; c < 3; ++c) linear[c] = decodedSrgb(color[c] / 255.0);
     const auto cone = [&](double r, double g, double b) {
         return std::cbrt(r * linear[0] + g * linear[1] + b * linear[2]);
     };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reference's texture filtering, compared with means over texels; and its ray-triangle intersections.
 #include "tests/support/reference_scene.h"
+#include "tests/support/srgb.h"
 
 #include "compare/reference/scene/geometry.h"
 #include "compare/reference/scene/texture.h"
@@ -64,14 +65,15 @@ TEST(ReferenceTexture, ColoursAreDecodedBeforeTheyAreMixed) {
     EXPECT_NEAR(both.r, 0.5, 1e-12) << "light, not codes";
     EXPECT_NEAR(both.a, 0.5, 1e-12);
     image.rgba[4] = 128;
-    EXPECT_NEAR(Pyramid(image, true).texel(0, 1, 0).r, std::pow((128 / 255.0 + 0.055) / 1.055, 2.4), 1e-15);
+    EXPECT_NEAR(Pyramid(image, true).texel(0, 1, 0).r, decodedSrgb(128 / 255.0), 1e-15);
     EXPECT_NEAR(Pyramid(image, true).texel(0, 1, 0).a, 1, 1e-15);
     EXPECT_NEAR(Pyramid(image, false).texel(0, 1, 0).r, 128 / 255.0, 1e-15);
     const TextureImage wide{"16", 1, 1, {}, {6554, 0, 65535, 32768}};
     EXPECT_NEAR(Pyramid(wide, false).texel(0, 0, 0).r, 6554 / 65535.0, 1e-15);
-    EXPECT_NEAR(Pyramid(wide, true).texel(0, 0, 0).r, std::pow((6554 / 65535.0 + 0.055) / 1.055, 2.4), 1e-15);
+    EXPECT_NEAR(Pyramid(wide, true).texel(0, 0, 0).r, decodedSrgb(6554 / 65535.0), 1e-15);
     const TextureImage dark{"dark", 1, 1, {10, 0, 0, 255}};
-    EXPECT_NEAR(Pyramid(dark, true).texel(0, 0, 0).r, 10 / 255.0 / 12.92, 1e-15) << "below the knee, linear";
+    EXPECT_NEAR(Pyramid(dark, true).texel(0, 0, 0).r, decodedSrgb(10 / 255.0), 1e-15)
+        << "below the knee, linear";
 }
 
 // Only 8-bit and 16-bit colours are encoded; float images are linear.

@@ -7,6 +7,7 @@
 #include "tests/support/exr_builder.h"
 #include "tests/support/files.h"
 #include "tests/support/png_builder.h"
+#include "tests/support/srgb.h"
 
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <gtest/gtest.h>
@@ -129,11 +130,7 @@ TEST(Primaries, OfARadianceImage) {
 TEST(Primaries, OfAPng) {
     MadePng made{PNG_COLOR_TYPE_RGB, 8, 1, {{0, 255, 0}}};
     made.chunks = {{"cHRM", bigEndianOf({31270, 32900, 68000, 32000, 26500, 69000, 15000, 6000})}};
-    const auto encoded = [](double l) {
-        return std::copysign(
-            std::abs(l) <= 0.0031308 ? 12.92 * std::abs(l) : 1.055 * std::pow(std::abs(l), 1 / 2.4) - 0.055,
-            l);
-    };
+    const auto encoded = [](double l) { return std::copysign(encodedSrgb(std::abs(l)), l); };
     for (const EightBits eight : {EightBits::decoded, EightBits::kept}) {
         const std::string bytes = pngOf(made);
         const ImageFile file =

@@ -4,6 +4,8 @@
 #include "shared/light/cutoff.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
+#include "tests/support/light_formulas.h"
+#include "tests/support/light_kinds.h"
 #include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <tuple>
 
 namespace diptych {
@@ -110,6 +113,43 @@ TEST(LightGrid, LightsThatEndNowhereAreListedInAllCells) {
                                        pointsAhead(10, std::numeric_limits<float>::infinity()));
     EXPECT_GE(std::uint64_t{grid.capacity} * grid.width, std::uint64_t{10} * grid.lists);
 }
+
+class LightBoundOf : public testing::TestWithParam<LightKind> {};
+
+// Directional lights are in no list. View axes are the world's with y and z inverted.
+TEST_P(LightBoundOf, HoldsEveryPlaceThatItLights) {
+    Light light;
+    light.kind = GetParam();
+    light.position = {1, 2, -9};
+    light.direction = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
+    light.axis = anyAcross(light.direction);
+    light.range = 3;
+    const auto bounds = lightBounds(gpuLights(std::span(&light, 1), glm::dvec3(0)), viewOf(64, 64));
+    ASSERT_EQ(bounds.size(), GetParam() == LightKind::directional ? 0u : 1u);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> within(-3, 3);
+    int lit = 0;
+    for (int i = 0; i < 300 && !bounds.empty(); ++i) {
+        const glm::dvec3 from(within(random), within(random), within(random));
+        Light seen = light;
+        seen.position = -from;
+        // An area light's back counts too.
+        if (!(isArea(GetParam()) ? glm::length(from) < 3
+                                 : irradianceFrom(seen, glm::normalize(seen.position)) > 0))
+            continue;
+        ++lit;
+        const glm::dvec3 at = light.position + from, there(at.x, -at.y, -at.z);
+        EXPECT_LE(glm::distance(there, glm::dvec3(bounds[0].centre)), double{bounds[0].radius});
+        EXPECT_GE(glm::dot(there - glm::dvec3(bounds[0].apex), glm::dvec3(bounds[0].axis)),
+                  double{bounds[0].cos_cone} * glm::length(from));
+    }
+    for (const gpu::LightBound& bound : bounds) {
+        EXPECT_GT(lit, 10);
+        EXPECT_LE(bound.radius, 3.001f) << "and little else";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LightBoundOf, testing::ValuesIn(everyLightKind()), lightKindName);
 
 TEST(LightCutoffRange, IsWhereAWhiteSurfaceIsAsDim) {
     Light light;

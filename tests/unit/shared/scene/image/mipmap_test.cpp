@@ -2,6 +2,7 @@
 #include "shared/scene/image/mipmap.h"
 
 #include "shared/image/srgb.h"
+#include "tests/support/srgb.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -125,16 +126,10 @@ TEST(Mipmap, ConstantImagesStayConstant) {
 
 // Encoding rounds exactly: a pair of codes averages to the code nearest to the mean computed in double.
 TEST(Mipmap, EncodingRoundsToTheNearestCode) {
-    const auto decode = [](double s) {
-        return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-    };
-    const auto encode = [](double l) {
-        return l <= 0.0031308 ? l * 12.92 : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
-    };
     for (int a = 0; a < 256; a += 3)
         for (int b = 0; b < 256; ++b) {
             const auto chain = levels(image(2, 1, [&](int x, int, int) { return x ? b : a; }), true);
-            const double exact = 255 * encode((decode(a / 255.0) + decode(b / 255.0)) / 2);
+            const double exact = 255 * encodedSrgb((decodedSrgb(a / 255.0) + decodedSrgb(b / 255.0)) / 2);
             // 0.5, plus the effect of float weights and of the curve's gap (1e-7) between its two branches
             ASSERT_NEAR(chain[1][0], exact, 0.5 + 1e-3) << a << " " << b;
         }
