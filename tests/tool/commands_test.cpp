@@ -15,77 +15,45 @@ namespace {
 enum class Draws { nothing, scenes, window };
 struct CommandRow {
     std::string name;
-    Draws draws;
-    bool writes;                      // takes -o, or does not check it before its inputs
-    std::string words;                // needed beside its inputs
-    std::string missing;              // inputs that are not there
+    Draws draws = Draws::nothing;
     std::vector<std::string> work{};  // takes a second or two; empty: no output to be interrupted
     std::string file{};               // of the output: the bytes that --json prints
     std::set<std::string> empty{};    // JSON paths of empty strings in them
+    bool no_file = false;             // refuses -o
+    std::string words{};              // needed beside its inputs
+    std::string missing = "no/such";  // inputs that are not there
 };
 void PrintTo(const CommandRow& row, std::ostream* out) {
     *out << row.name;
 }
 
 std::vector<CommandRow> commandRows() {
-    const std::vector<std::string> sweepWork{
-        "builtin:points",
-        "--size",
-        "96x54",
-        "--runs",
-        "20",
-        "--grid",
-        R"({"settings":{"path":["deferred","forward_plus"],"gbuffer":["compact","full"]}})"};
+    using Words = std::vector<std::string>;
+    const std::string grid =
+        R"({"settings":{"path":["deferred","forward_plus"],"gbuffer":["compact","full"]}})";
+    const Words sweepWork{"builtin:points", "--size", "96x54", "--runs", "20", "--grid", grid},
+        compareWork{"builtin:points", "--size", "192x108", "--runs", "5"},
+        renderWork{"builtin:points", "--size", "640x360", "--runs", "20"},
+        explainWork{"builtin:points", "--gbuffer", "compact", "--size", "192x108"},
+        auditWork{"builtin:triangle", "--size", "32x18", "--quantity", "offset,scale"},
+        benchWork{"builtin:points", "--size", "64x36", "--runs", "5", "--light-counts", "1,4"};
+    const std::set<std::string> compareEmpty{"/comparisons/*/camera/choice", "/frames/*/camera/choice"};
     return {
-        {"compare",
-         Draws::scenes,
-         true,
-         "",
-         "no/such",
-         {"builtin:points", "--size", "192x108", "--runs", "5"},
-         "report.json",
-         {"/comparisons/*/camera/choice", "/frames/*/camera/choice"}},
-        {"render",
-         Draws::scenes,
-         true,
-         "",
-         "no/such",
-         {"builtin:points", "--size", "640x360", "--runs", "20"},
-         "",
-         {"/frames/*/camera/choice"}},
-        {"diff", Draws::nothing, true, "", "no/such no/other"},
-        {"tradeoff", Draws::scenes, true, "", "no/such", sweepWork, "tradeoff.json", {"/cameras/*"}},
-        {"explain",
-         Draws::scenes,
-         true,
-         "",
-         "no/such",
-         {"builtin:points", "--gbuffer", "compact", "--size", "192x108"},
-         "explain.json"},
-        {"choose", Draws::scenes, true, "--max-error 1", "no/such", sweepWork},
-        {"audit",
-         Draws::scenes,
-         true,
-         "",
-         "no/such",
-         {"builtin:triangle", "--size", "32x18", "--quantity", "offset,scale"},
-         "audit.json",
-         {"/quantities/*/unit"}},
-        {"plan", Draws::scenes, false, "", "no/such"},
-        {"view", Draws::window, true, "", "no/such"},
-        {"bench",
-         Draws::scenes,
-         true,
-         "",
-         "no/such",
-         {"builtin:points", "--size", "64x36", "--runs", "5", "--light-counts", "1,4"},
-         "",
-         {"/layers/compiler"}},
-        {"calibrate", Draws::nothing, false, "", "no/such"},
-        {"merge", Draws::nothing, true, "", "no/such"},
-        {"submit", Draws::nothing, true, "", "no/such"},
-        {"accept", Draws::nothing, true, "", "no/such"},
-        {"devices", Draws::nothing, false, "", "--device no/such"},
+        {"compare", Draws::scenes, compareWork, "report.json", compareEmpty},
+        {"render", Draws::scenes, renderWork, "", {"/frames/*/camera/choice"}},
+        {"diff", Draws::nothing, {}, "", {}, false, "", "no/such no/other"},
+        {"tradeoff", Draws::scenes, sweepWork, "tradeoff.json", {"/cameras/*"}},
+        {"explain", Draws::scenes, explainWork, "explain.json"},
+        {"choose", Draws::scenes, sweepWork, "", {}, false, "--max-error 1"},
+        {"audit", Draws::scenes, auditWork, "audit.json", {"/quantities/*/unit"}},
+        {"plan", Draws::scenes, {}, "", {}, true},
+        {"view", Draws::window},
+        {"bench", Draws::scenes, benchWork, "", {"/layers/compiler"}},
+        {"calibrate", Draws::nothing, {}, "", {}, true},
+        {"merge"},
+        {"submit"},
+        {"accept"},
+        {"devices", Draws::nothing, {}, "", {}, true, "", "--device no/such"},
     };
 }
 
@@ -132,7 +100,7 @@ TEST_P(EveryCommand, NamesBadInput) {
     if (row_.draws == Draws::scenes)
         bad.insert(bad.end(), {{"builtin:triangle --camera 99", "--camera \"99\""},
                                {"builtin:triangle --lights disco:3", "--lights disco:3"}});
-    if (!row_.writes) bad.emplace_back(row_.missing + " -o p", "-o p: " + row_.name + " writes no file");
+    if (row_.no_file) bad.emplace_back(row_.missing + " -o p", "-o p: " + row_.name + " writes no file");
     const std::set<std::string> before = written();
     for (const auto& [words, fault] : bad) {
         const Ran ran = run(words + " --json");

@@ -86,12 +86,6 @@ TEST(Exr, BrokenFilesAreNamed) {
     const Image image = pattern(64, 64, 3);
     writeExr(file, {{{"R", "G", "B"}, &image}});
     const std::string whole = contentsOf(file);
-    for (const std::size_t size :
-         {std::size_t{0}, std::size_t{4}, std::size_t{100}, whole.size() / 2, whole.size() - 1}) {
-        writeFile(file, whole.substr(0, size));
-        const std::string fault = faultOf([&] { readExr(file); });
-        EXPECT_NE(fault.find("a.exr"), std::string::npos) << size << " bytes: " << fault;
-    }
     // A header that claims 2^20 x 2^20 pixels is refused before memory is allocated.
     std::string huge = whole;
     for (const char* window : {"dataWindow", "displayWindow"}) {

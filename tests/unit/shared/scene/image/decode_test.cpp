@@ -3,16 +3,12 @@
 #include "shared/scene/image/decode.h"
 #include "shared/image/image_file.h"
 #include "tests/support/errors.h"
+#include "tests/support/jpeg_builder.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include <cstdio>  // jpeglib.h needs it
-
-#include <jpeglib.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
 #include <span>
 #include <stdexcept>
@@ -56,40 +52,6 @@ struct PngBuilder {
         return file;
     }
 };
-
-// A JPEG of 16 x 16 pixels of one colour, stored in the colour space `space`.
-Bytes jpeg(J_COLOR_SPACE in, J_COLOR_SPACE space, std::vector<unsigned char> color, bool progressive = false,
-           bool adobe = true, std::span<const jpeg_scan_info> scans = {}) {
-    jpeg_compress_struct c{};
-    jpeg_error_mgr errors{};
-    c.err = jpeg_std_error(&errors);
-    jpeg_create_compress(&c);
-    unsigned char* data = nullptr;
-    unsigned long size = 0;
-    jpeg_mem_dest(&c, &data, &size);
-    c.image_width = c.image_height = 16;
-    c.input_components = static_cast<int>(color.size());
-    c.in_color_space = in;
-    jpeg_set_defaults(&c);
-    jpeg_set_colorspace(&c, space);
-    jpeg_set_quality(&c, 100, TRUE);
-    if (progressive) jpeg_simple_progression(&c);
-    if (!scans.empty()) {
-        c.scan_info = scans.data();
-        c.num_scans = static_cast<int>(scans.size());
-    }
-    c.write_Adobe_marker = adobe && (space == JCS_CMYK || space == JCS_YCCK || space == JCS_RGB);
-    jpeg_start_compress(&c, TRUE);
-    std::vector<unsigned char> row;
-    for (int x = 0; x < 16; ++x) row.insert(row.end(), color.begin(), color.end());
-    unsigned char* line = row.data();
-    while (c.next_scanline < c.image_height) jpeg_write_scanlines(&c, &line, 1);
-    jpeg_finish_compress(&c);
-    jpeg_destroy_compress(&c);
-    Bytes file(data, data + size);
-    std::free(data);
-    return file;
-}
 
 std::string failure(const Bytes& file) {
     return faultOf([&] { decodeImage(file); });
@@ -284,50 +246,11 @@ TEST(ImageDecode, OtherFilesAreRefusedByName) {
     EXPECT_EQ(named("DDS "), "is DDS; only PNG, JPEG and WebP are supported");
 }
 
-// A file truncated anywhere gives a one-line error, and nothing is printed.
-TEST(ImageDecode, EveryTruncationIsRefused) {
-    const Bytes files[] = {
-        PngBuilder{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
-        PngBuilder{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}, 2, 2, true}.made(),
-        jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}), jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}, true)};
-    testing::internal::CaptureStderr();
-    for (const Bytes& file : files) {
-        const bool png = file[0] == 0x89;
-        const std::size_t tail = png ? 12 + 4 : 0;  // IEND, and the checksum before it, are not needed
-        for (std::size_t size = 0; size + tail < file.size(); ++size) {
-            const std::string why = failure(Bytes(file.begin(), file.begin() + static_cast<long>(size)));
-            EXPECT_NE(why, "") << size << " of " << file.size();
-            EXPECT_EQ(why.find('\n'), why.npos) << why;
-        }
-    }
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-    EXPECT_EQ(failure(Bytes(files[0].begin(), files[0].begin() + 40)), "does not decode: it ends early");
-    EXPECT_EQ(failure(Bytes(files[2].begin(), files[2].end() - 2)),
-              "does not decode: Premature end of JPEG file");
-}
-
-// A file with any byte changed gives an image of the header's size, or a one-line error.
-TEST(ImageDecode, AnyByteMayBeWrong) {
-    const Bytes files[] = {
-        PngBuilder{8, PNG_COLOR_TYPE_PALETTE, {{0, 1}, {2, 0}}, 2, 2, true, withPalette}.made(),
-        PngBuilder{16, PNG_COLOR_TYPE_RGB, {Bytes(12, 9), Bytes(12, 7)}}.made(),
-        jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50}), jpeg(JCS_CMYK, JCS_YCCK, {200, 100, 50, 9}, true)};
-    testing::internal::CaptureStderr();
-    for (const Bytes& file : files)
-        for (std::size_t at = 0; at < file.size(); ++at)
-            for (const int flip : {0x01, 0x80, 0xff}) {
-                Bytes changed = file;
-                changed[at] = static_cast<unsigned char>(changed[at] ^ flip);
-                try {
-                    const TextureImage image = decodeImage(changed);
-                    EXPECT_EQ(
-                        image.rgba.size() + image.rgba16.size(),
-                        4u * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-                } catch (const std::runtime_error& e) {
-                    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
-                }
-            }
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+TEST(ImageDecode, WhatEndsEarlyIsSaid) {
+    const Bytes png = PngBuilder{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
+                color = jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50});
+    EXPECT_EQ(failure(Bytes(png.begin(), png.begin() + 40)), "does not decode: it ends early");
+    EXPECT_EQ(failure(Bytes(color.begin(), color.end() - 2)), "does not decode: Premature end of JPEG file");
 }
 
 // Sizes are checked before allocation.
@@ -437,6 +360,5 @@ TEST(ImageDecode, AJpegIsAnImageOfTheSameBytes) {
     const auto imageFault = [](std::span<const unsigned char> bytes, std::uint64_t max) {
         return faultOf([&] { readImage(std::as_bytes(bytes), "a.jpg", {}, max); });
     };
-    EXPECT_TRUE(imageFault(std::span(file).first(file.size() / 2), 1 << 20).starts_with("a.jpg: ")) << "cut";
     EXPECT_TRUE(imageFault(file, 100).starts_with("a.jpg: ")) << "more memory than allowed";
 }
