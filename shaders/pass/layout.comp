@@ -5,7 +5,7 @@
 // Never executed. Declares a buffer of every contract struct, so that the build can compare the offsets in
 // the SPIR-V with those in C++.
 #include "shaders/lib/contract.glsl"
-#include "shared/contract/culling.h"
+#include "shared/contract/meshlet_culling.h"
 
 layout(set = 3, binding = 0, scalar) buffer ViewArray { View view_array[]; };
 layout(set = 3, binding = 1, scalar) buffer DrawArray { Draw draw_array[]; };
@@ -29,7 +29,7 @@ layout(set = 3, binding = 20, scalar) buffer ObjectLightArray { ObjectLight obje
 layout(set = 3, binding = 21, scalar) buffer ObjectIrradianceArray {
     ObjectIrradiance object_irradiance_array[];
 };
-layout(set = 3, binding = 23, scalar) buffer CulledClusterArray { CulledCluster culled_cluster_array[]; };
+layout(set = 3, binding = 23, scalar) buffer CulledMeshletArray { CulledMeshlet culled_meshlet_array[]; };
 layout(set = 3, binding = 24, scalar) buffer CulledItemArray { CulledItem culled_item_array[]; };
 layout(set = 3, binding = 25, scalar) buffer CulledPartArray { CulledPart culled_part_array[]; };
 layout(set = 3, binding = 26, scalar) buffer IndirectDrawArray { IndirectDraw indirect_draw_array[]; };
@@ -42,7 +42,7 @@ layout(set = 3, binding = 30, scalar) buffer TileConstantsArray { TileConstants 
 layout(set = 3, binding = 22, scalar) buffer ObjectLightsArray { ObjectLights object_lights_array[]; };
 
 void main() {
-    culled_cluster_array[0] = culled_cluster_array[1];
+    culled_meshlet_array[0] = culled_meshlet_array[1];
     culled_item_array[0] = culled_item_array[1];
     culled_part_array[0] = culled_part_array[1];
     indirect_draw_array[0] = indirect_draw_array[1];

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/compute_culling.h"
 
-#include "shared/draw/clusters.h"
 #include "shared/draw/deformations.h"
+#include "shared/draw/meshlets.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace diptych {
 
-static_assert(clusterTriangles == gpu::CULLED_TRIANGLES);
+static_assert(maxMeshletTriangles == gpu::MAX_MESHLET_TRIANGLES);
 static_assert(sizeof(gpu::IndirectDraw) == sizeof(VkDrawIndexedIndirectCommand));
 
 namespace {
@@ -29,7 +29,7 @@ ComputeCulling::ComputeCulling(Device& device, Pipelines& pipelines, VkPipelineL
                        MemoryUse::upload);
     parts_ = GpuBuffer(device, "culled parts", bytesOf(sizes.parts, sizeof(gpu::CulledPart)), addressed,
                        MemoryUse::upload);
-    order_ = GpuBuffer(device, "order of clusters", bytesOf(sizes.clusters, sizeof(gpu::uint)), addressed,
+    order_ = GpuBuffer(device, "order of clusters", bytesOf(sizes.meshlets, sizeof(gpu::uint)), addressed,
                        MemoryUse::upload);
     indices_ = GpuBuffer(device, "chosen indices", bytesOf(sizes.indices, sizeof(gpu::uint)),
                          addressed | read | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
@@ -37,7 +37,7 @@ ComputeCulling::ComputeCulling(Device& device, Pipelines& pipelines, VkPipelineL
                        addressed | read | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
     constants_ = {addressWords(geometry.positions().address()),
                   addressWords(geometry.indices().address()),
-                  addressWords(geometry.clusterBuffer().address()),
+                  addressWords(geometry.meshletBuffer().address()),
                   addressWords(items_.address()),
                   addressWords(parts_.address()),
                   addressWords(order_.address()),
@@ -59,12 +59,12 @@ std::span<gpu::CulledPart> ComputeCulling::parts() {
 }
 
 std::span<std::uint32_t> ComputeCulling::order() {
-    return {static_cast<std::uint32_t*>(order_.mapped()), sizes_.clusters};
+    return {static_cast<std::uint32_t*>(order_.mapped()), sizes_.meshlets};
 }
 
 void ComputeCulling::addPass(PassList& passes, const char* name) const {
     Pass& pass = passes.compute(name);
-    const Pipeline pipeline = pipelines_.compute(Shader::cull_clusters_comp, {}, layout_);
+    const Pipeline pipeline = pipelines_.compute(Shader::cull_meshlets_comp, {}, layout_);
     pass.uses(passes.buffer("chosen indices", indices_), access::storageWrite(inCompute))
         .uses(passes.buffer("indirect draws", draws_), access::storageWrite(inCompute))
         .record([this, pipeline](VkCommandBuffer commands) {

@@ -3,9 +3,9 @@
 // draws. The CPU provides the order of meshlets.
 #pragma once
 
-#include "shared/contract/culling.h"
+#include "shared/contract/meshlet_culling.h"
 #include "shared/draw/geometry.h"
-#include "shared/draw/visible_clusters.h"
+#include "shared/draw/visible_meshlets.h"
 #include "shared/vulkan/passes/pass_list.h"
 #include "shared/vulkan/pipelines/pipelines.h"
 
@@ -19,7 +19,7 @@ class ComputeCulling {
 public:
     // Capacities.
     struct Sizes {
-        std::uint32_t items = 0, parts = 0, clusters = 0, indices = 0;  // clusters: of all parts together
+        std::uint32_t items = 0, parts = 0, meshlets = 0, indices = 0;  // clusters: of all parts together
         std::uint32_t draws = 0;
     };
     // `layout`: Layouts::culling. Geometry and layout must outlive it.

@@ -18,7 +18,7 @@ namespace diptych {
 namespace {
 
 // Meshlets that one thread processes at a time.
-constexpr std::uint32_t partClusters = 64;
+constexpr std::uint32_t maxPartMeshlets = 64;
 
 SampleGrid gridOf(const Device& device, const View& view, int samples) {
     // One step of the subpixel grid: Vulkan does not say that vertices are snapped to the nearest point.
@@ -26,7 +26,7 @@ SampleGrid gridOf(const Device& device, const View& view, int samples) {
             std::ldexp(1.0, -static_cast<int>(device.limits().subPixelPrecisionBits))};
 }
 
-gpu::CulledItem culledItem(const DrawItem& item, const gpu::Draw& draw, const VisibleClusters& shown,
+gpu::CulledItem culledItem(const DrawItem& item, const gpu::Draw& draw, const VisibleMeshlets& shown,
                            bool oneSided) {
     // Sum of two shaders' errors, rounded up.
     const glm::dvec4 error = shown.error() * (2 * (1 + 1e-3));
@@ -38,7 +38,7 @@ gpu::CulledItem culledItem(const DrawItem& item, const gpu::Draw& draw, const Vi
 // saved draw outweighs the meshlet's back-facing triangles.
 std::uint32_t togetherFrom(const DrawList& draws, std::size_t i) {
     std::size_t end = i + 1;
-    if (draws.items[i].range.cluster_count != 1) return 1;
+    if (draws.items[i].range.meshlet_count != 1) return 1;
     while (end < draws.solid && isNextInstance(draws.items[end - 1], draws.items[end]) &&
            draws.items[end].variant == draws.items[i].variant)
         ++end;
@@ -73,14 +73,14 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
         const PlacedPrimitive placed = geometry.placed(pose, pose.instances[item.instance]);
         const glm::dmat4 fromCamera = fromEye(placed, view.eye());
         const bool oneSided = item.variant.get(gpu::FEATURE_double_sided) == 0;
-        Item made{VisibleClusters(grid, clipFromWorld * fromCamera, range.bounds_min, range.bounds_max,
+        Item made{VisibleMeshlets(grid, clipFromWorld * fromCamera, range.bounds_min, range.bounds_max,
                                   oneSided, item.mirrored),
                   glm::transpose(fromCamera) * glm::dvec4(-view.backward(), 0),
-                  range.first_cluster,
-                  range.cluster_count,
+                  range.first_meshlet,
+                  range.meshlet_count,
                   static_cast<std::uint32_t>(order_.size()),
                   static_cast<std::uint32_t>(parts_.size()),
-                  (range.cluster_count + partClusters - 1) / partClusters,
+                  (range.meshlet_count + maxPartMeshlets - 1) / maxPartMeshlets,
                   slot,
                   whole};
         addParts(made);
@@ -108,17 +108,17 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
 }
 
 void Culling::addParts(const Item& item) {
-    for (std::uint32_t first = 0; first < item.clusters; first += partClusters)
+    for (std::uint32_t first = 0; first < item.meshlets; first += maxPartMeshlets)
         parts_.push_back({static_cast<std::uint32_t>(items_.size()), item.first + first,
-                          std::min(partClusters, item.clusters - first)});
-    order_.resize(order_.size() + item.clusters);
+                          std::min(maxPartMeshlets, item.meshlets - first)});
+    order_.resize(order_.size() + item.meshlets);
 }
 
 void Culling::addCulled(const Item& item, const gpu::CulledItem& culled) {
     const auto index = static_cast<gpu::uint>(culled_items_.size());
     culled_items_.push_back(culled);
     for (std::uint32_t p = item.first_part; p < item.first_part + item.parts; ++p)
-        culled_parts_.push_back({index, parts_[p].first, parts_[p].clusters, 0, p});
+        culled_parts_.push_back({index, parts_[p].first, parts_[p].meshlets, 0, p});
 }
 
 void Culling::runOnHost(Device& device, std::uint32_t indices) {
@@ -142,42 +142,42 @@ void Culling::runOnGpu() {
 void Culling::order(const Item& item) {
     struct Deep {
         double depth;
-        std::uint32_t cluster;
+        std::uint32_t meshlet;
         bool operator<(const Deep& other) const {
-            return depth < other.depth || (depth == other.depth && cluster < other.cluster);
+            return depth < other.depth || (depth == other.depth && meshlet < other.meshlet);
         }
     };
-    std::vector<Deep> sorted(item.clusters);
-    for (std::uint32_t k = 0; k < item.clusters; ++k) {
-        const std::uint32_t cluster = item.first_cluster + k;
-        sorted[k] = {glm::dot(item.depth, glm::dvec4(middleOf(geometry_.cluster(cluster)), 1)), cluster};
+    std::vector<Deep> sorted(item.meshlets);
+    for (std::uint32_t k = 0; k < item.meshlets; ++k) {
+        const std::uint32_t meshlet = item.first_meshlet + k;
+        sorted[k] = {glm::dot(item.depth, glm::dvec4(middleOf(geometry_.meshlet(meshlet)), 1)), meshlet};
     }
     std::sort(sorted.begin(), sorted.end());
     std::uint32_t slot = item.place;
     for (std::uint32_t p = item.first_part; p < item.first_part + item.parts; ++p) {
         Part& part = parts_[p];
         part.place = slot;
-        for (std::uint32_t k = part.first; k < part.first + part.clusters; ++k) {
-            order_[k] = sorted[k - item.first].cluster;
-            slot += geometry_.cluster(order_[k]).index_count;
+        for (std::uint32_t k = part.first; k < part.first + part.meshlets; ++k) {
+            order_[k] = sorted[k - item.first].meshlet;
+            slot += geometry_.meshlet(order_[k]).index_count;
         }
     }
 }
 
 void Culling::choose(std::size_t part, std::uint32_t* indices) {
     const Part& of = parts_[part];
-    const VisibleClusters& shown = items_[of.item].shown;
-    const ClusterTriangles& triangles = geometry_.clusterTriangles();
+    const VisibleMeshlets& shown = items_[of.item].shown;
+    const MeshletTriangles& triangles = geometry_.meshletTriangles();
     std::uint32_t* next = indices + of.place;
-    for (std::uint32_t k = of.first; k < of.first + of.clusters; ++k) {
-        const Cluster& cluster = geometry_.cluster(order_[k]);
-        const ClusterTriangles::Entry& entry = triangles[order_[k]];
-        const TriangleSet set = on_ ? shown.of(cluster, triangles, entry) : entry.all();
+    for (std::uint32_t k = of.first; k < of.first + of.meshlets; ++k) {
+        const Meshlet& meshlet = geometry_.meshlet(order_[k]);
+        const MeshletTriangles::Entry& entry = triangles[order_[k]];
+        const TriangleSet set = on_ ? shown.of(meshlet, triangles, entry) : entry.all();
         if (items_[of.item].whole) {
-            draws_.runs[part] = {cluster.first_index, set != 0 ? cluster.index_count : 0};
+            draws_.runs[part] = {meshlet.first_index, set != 0 ? meshlet.index_count : 0};
             return;
         }
-        const std::span<const std::uint32_t> all = geometry_.indicesOf(cluster);
+        const std::span<const std::uint32_t> all = geometry_.indicesOf(meshlet);
         if (set == entry.all()) {
             std::memcpy(next, all.data(), all.size_bytes());
             next += all.size();
@@ -258,8 +258,8 @@ DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const C
                 used.insert(used.end(), of.begin(), of.end());
             }
         else
-            for (const Cluster& cluster : geometry.clusters(item.range)) {
-                const std::span<const std::uint32_t> of = geometry.indicesOf(cluster);
+            for (const Meshlet& meshlet : geometry.meshlets(item.range)) {
+                const std::span<const std::uint32_t> of = geometry.indicesOf(meshlet);
                 used.insert(used.end(), of.begin(), of.end());
             }
         counts.drawn += used.size() / 3;

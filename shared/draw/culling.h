@@ -8,7 +8,7 @@
 #include "shared/draw/compute_culling.h"
 #include "shared/draw/draw_list.h"
 #include "shared/draw/layouts.h"
-#include "shared/draw/visible_clusters.h"
+#include "shared/draw/visible_meshlets.h"
 #include "shared/vulkan/device/resources.h"
 
 #include <cstdint>
@@ -57,9 +57,9 @@ public:
 private:
     // One instance: visibility of its meshlets, and their depth.
     struct Item {
-        VisibleClusters shown;
+        VisibleMeshlets shown;
         glm::dvec4 depth;  // view depth of an object-space point, m: dot(depth, (point, 1))
-        std::uint32_t first_cluster, clusters;
+        std::uint32_t first_meshlet, meshlets;
         std::uint32_t first;  // offset in order_ of its `clusters` entries
         std::uint32_t first_part, parts;
         std::uint32_t place;  // offset of its first index
@@ -73,7 +73,7 @@ private:
     };
     // Consecutive meshlets of one item in order_, which share one index range.
     struct Part {
-        std::uint32_t item, first, clusters;
+        std::uint32_t item, first, meshlets;
         std::uint32_t place = 0;  // offset of its first index
     };
     void addParts(const Item& item);

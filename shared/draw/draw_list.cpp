@@ -236,15 +236,15 @@ void sortTriangles(DrawList& list, const Pose& pose, const Geometry& geometry, c
 
 // Adds runs of the meshlets that `keeps` accepts; returns false if there are none.
 template <class Keeps>
-bool addRuns(DrawList& list, DrawItem& item, std::span<const Cluster> clusters, const Keeps& keeps) {
+bool addRuns(DrawList& list, DrawItem& item, std::span<const Meshlet> meshlets, const Keeps& keeps) {
     item.first_run = static_cast<std::uint32_t>(list.runs.size());
-    for (const Cluster& cluster : clusters) {
-        if (!keeps(ObjectBox(cluster.min, cluster.max))) continue;
+    for (const Meshlet& meshlet : meshlets) {
+        if (!keeps(ObjectBox(meshlet.min, meshlet.max))) continue;
         const bool follows = list.runs.size() > item.first_run &&
-                             list.runs.back().first + list.runs.back().count == cluster.first_index;
-        if (!follows) list.runs.push_back({cluster.first_index, 0});
-        list.runs.back().count += cluster.index_count;
-        list.triangles += cluster.index_count / 3;
+                             list.runs.back().first + list.runs.back().count == meshlet.first_index;
+        if (!follows) list.runs.push_back({meshlet.first_index, 0});
+        list.runs.back().count += meshlet.index_count;
+        list.triangles += meshlet.index_count / 3;
     }
     item.runs = static_cast<std::uint32_t>(list.runs.size()) - item.first_run;
     return item.runs > 0;
@@ -294,7 +294,7 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
         if (isSolid(item) && item.box < 0) {
             item.first_run = static_cast<std::uint32_t>(list.runs.size());
             item.runs = 1;
-            list.runs.push_back({geometry.clusters(range).front().first_index, range.index_count});
+            list.runs.push_back({geometry.meshlets(range).front().first_index, range.index_count});
         }
         const ObjectBox box(range.bounds_min, range.bounds_max);
         item.depth = glm::dot(-view.backward(), glm::dvec3(fromCamera * glm::dvec4(box.centre, 1)));
@@ -327,7 +327,7 @@ DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materi
         if (request.all) {
             list.triangles += range.index_count / 3;
         } else if (!keeps({range.bounds_min, range.bounds_max}) ||
-                   !addRuns(list, item, geometry.clusters(placed), keeps)) {
+                   !addRuns(list, item, geometry.meshlets(placed), keeps)) {
             ++list.culled;
             continue;
         }
@@ -352,8 +352,8 @@ std::vector<VisibleBox> visibleBoxes(const Pose& pose, const Geometry& geometry,
         const glm::dmat4 fromCamera = fromEye(placed, view.eye());
         const ClipSides sides(view.clipFromWorld() * fromCamera, range);
         if (sides.exclude({range.bounds_min, range.bounds_max})) continue;
-        for (const Cluster& cluster : geometry.clusters(placed)) {
-            const ObjectBox box(cluster.min, cluster.max);
+        for (const Meshlet& meshlet : geometry.meshlets(placed)) {
+            const ObjectBox box(meshlet.min, meshlet.max);
             if (sides.exclude(box)) continue;
             const glm::dmat3 linear(fromCamera);
             boxes.push_back(

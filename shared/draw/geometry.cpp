@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared/draw/geometry.h"
 
-#include "shared/contract/culling.h"
 #include "shared/contract/geometry.h"
+#include "shared/contract/meshlet_culling.h"
 #include "shared/scene/model/animated.h"
 #include "shared/scene/motion/bounds.h"
 #include "shared/scene/motion/posed.h"
@@ -25,8 +25,8 @@ namespace diptych {
 struct Geometry::CutPrimitive {
     std::vector<glm::vec3> moved;  // positions relative to the origin, if that is not 0
     std::vector<std::uint32_t> indices;
-    std::vector<Cluster> clusters;
-    ClusterTriangles triangles;
+    std::vector<Meshlet> meshlets;
+    MeshletTriangles triangles;
     const std::vector<glm::vec3>& positions(const Primitive& p) const {
         return moved.empty() ? p.positions : moved;
     }
@@ -94,10 +94,10 @@ std::uint32_t indexCountOf(const Scene& scene) {
     return static_cast<std::uint32_t>(sum);
 }
 
-std::vector<gpu::CulledCluster> culledClusters(std::span<const Cluster> clusters) {
-    std::vector<gpu::CulledCluster> culled;
-    culled.reserve(clusters.size());
-    for (const Cluster& c : clusters) culled.push_back({c.min, c.first_index, c.max, c.index_count / 3});
+std::vector<gpu::CulledMeshlet> culledMeshlets(std::span<const Meshlet> meshlets) {
+    std::vector<gpu::CulledMeshlet> culled;
+    culled.reserve(meshlets.size());
+    for (const Meshlet& c : meshlets) culled.push_back({c.min, c.first_index, c.max, c.index_count / 3});
     return culled;
 }
 
@@ -114,11 +114,11 @@ std::vector<Geometry::CutPrimitive> Geometry::cut(const Scene& scene, const glm:
         if (origin != glm::dvec3(0) && isRigid(p, scene)) made.moved = countedFrom(origin, p.positions);
         if (p.indices.empty()) return;
         made.indices = p.indices;
-        made.clusters = cutIntoClusters(made.positions(p), made.indices);
-        for (const Cluster& cluster : made.clusters)
+        made.meshlets = buildMeshlets(made.positions(p), made.indices);
+        for (const Meshlet& meshlet : made.meshlets)
             made.triangles.add(
-                cluster, made.positions(p),
-                std::span(std::as_const(made.indices)).subspan(cluster.first_index, cluster.index_count));
+                meshlet, made.positions(p),
+                std::span(std::as_const(made.indices)).subspan(meshlet.first_index, meshlet.index_count));
     });
     return cuts;
 }
@@ -127,7 +127,7 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
     std::vector<glm::vec3> positions;
     std::vector<gpu::VertexAttributes> attributes;
     std::vector<std::uint32_t> indices;
-    first_clustered_ = indexCountOf(scene);
+    first_meshlet_index_ = indexCountOf(scene);
     const std::vector<bool> mayBlend = materialsThatBlend(scene);
     const glm::dvec3 origin = originOf(scene);
     std::vector<CutPrimitive> cuts = cut(scene, origin);
@@ -155,12 +155,12 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
             }
             positions.insert(positions.end(), stored.begin(), stored.end());
             indices.insert(indices.end(), p.indices.begin(), p.indices.end());
-            addClusters(range, made);
+            addMeshlets(range, made);
             if (mayBlend[range.material]) keep(range, p);
             ranges_.back().push_back(range);
         }
     }
-    indices.insert(indices.end(), clustered_.begin(), clustered_.end());
+    indices.insert(indices.end(), meshlet_indices_.begin(), meshlet_indices_.end());
     // Deformation reads them by address and copies attributes that it does not change.
     constexpr VkBufferUsageFlags posed =
         VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
@@ -171,20 +171,20 @@ Geometry::Geometry(Device& device, Uploader& uploader, const Scene& scene) : sce
     indices_ = makeBuffer<std::uint32_t>(device, uploader, "indices", indices,
                                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT | posed);
     if (device.profile().culls_by_compute)
-        cluster_buffer_ =
-            makeBuffer<gpu::CulledCluster>(device, uploader, "clusters", culledClusters(clusters_),
+        meshlet_buffer_ =
+            makeBuffer<gpu::CulledMeshlet>(device, uploader, "clusters", culledMeshlets(meshlets_),
                                            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT);
 }
 
-void Geometry::addClusters(PrimitiveRange& range, const CutPrimitive& cut) {
-    range.first_cluster = static_cast<std::uint32_t>(clusters_.size());
-    for (Cluster cluster : cut.clusters) {
-        cluster.first_index += first_clustered_ + static_cast<std::uint32_t>(clustered_.size());
-        clusters_.push_back(cluster);
+void Geometry::addMeshlets(PrimitiveRange& range, const CutPrimitive& cut) {
+    range.first_meshlet = static_cast<std::uint32_t>(meshlets_.size());
+    for (Meshlet meshlet : cut.meshlets) {
+        meshlet.first_index += first_meshlet_index_ + static_cast<std::uint32_t>(meshlet_indices_.size());
+        meshlets_.push_back(meshlet);
     }
-    clustered_.insert(clustered_.end(), cut.indices.begin(), cut.indices.end());
-    cluster_triangles_.add(cut.triangles);
-    range.cluster_count = static_cast<std::uint32_t>(clusters_.size()) - range.first_cluster;
+    meshlet_indices_.insert(meshlet_indices_.end(), cut.indices.begin(), cut.indices.end());
+    meshlet_triangles_.add(cut.triangles);
+    range.meshlet_count = static_cast<std::uint32_t>(meshlets_.size()) - range.first_meshlet;
 }
 
 void Geometry::keep(PrimitiveRange& range, const Primitive& p) {

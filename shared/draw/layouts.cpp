@@ -2,8 +2,8 @@
 #include "shared/draw/layouts.h"
 
 #include "shared/contract/bindings.h"
-#include "shared/contract/culling.h"
 #include "shared/contract/geometry.h"
+#include "shared/contract/meshlet_culling.h"
 
 #include <array>
 #include <cstddef>

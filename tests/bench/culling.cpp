@@ -55,13 +55,13 @@ std::string spread(std::vector<double> values) {
 
 double cutMs(const Scene& scene) {
     const auto start = std::chrono::steady_clock::now();
-    ClusterTriangles triangles;
+    MeshletTriangles triangles;
     for (const Mesh& mesh : scene.meshes)
         for (const Primitive& p : mesh.primitives) {
             std::vector<std::uint32_t> indices = p.indices;
-            for (const Cluster& cluster : cutIntoClusters(p.positions, indices))
-                triangles.add(cluster, p.positions,
-                              std::span(indices).subspan(cluster.first_index, cluster.index_count));
+            for (const Meshlet& meshlet : buildMeshlets(p.positions, indices))
+                triangles.add(meshlet, p.positions,
+                              std::span(indices).subspan(meshlet.first_index, meshlet.index_count));
         }
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }

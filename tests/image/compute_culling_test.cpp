@@ -115,7 +115,7 @@ DrawnCounts countsOn(Device& on, const std::shared_ptr<PipelineSet>& set, const 
     return drawnCounts(view.draws, shared.geometry, view.culling);
 }
 
-// The compute shader tests each triangle; the host keeps clusters that extend beyond the view whole. It
+// The compute shader tests each triangle; the host keeps meshlets that extend beyond the view whole. It
 // also tests samples under MSAA: it culls no less.
 TEST(ComputeCulling, LeavesOutAboutAsMuchAsTheHost) {
     std::vector<std::string> names{"builtin:spheres", "builtin:gallery", "builtin:mirrored"};

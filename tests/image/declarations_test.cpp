@@ -95,7 +95,7 @@ std::vector<std::string> secondRun(const PassList& passes) {
 }
 
 // Barriers of a second frame: every write waits for the previous frame's readers.
-TEST(Declarations, BarriersOfForwardPlusWithClusters) {
+TEST(Declarations, BarriersOfForwardPlusWithLightClusters) {
     Declared declared(Path::forward_plus, Assignment::clustered);
     EXPECT_EQ(secondRun(declared.passes()),
               (std::vector<std::string>{
@@ -165,7 +165,7 @@ TEST(Declarations, BarriersOfChosenTriangles) {
                      }));
 }
 
-// Clusters need no depth, so they do not wait for the G-buffer. Tiles do.
+// Meshlets need no depth, so they do not wait for the G-buffer. Tiles do.
 TEST(Declarations, OnlyTilesWaitForDepth) {
     for (const Assignment assign : {Assignment::clustered, Assignment::tiled}) {
         Declared declared(Path::deferred, assign);

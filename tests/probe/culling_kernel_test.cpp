@@ -95,23 +95,23 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
                           std::ldexp(1.0, -static_cast<int>(on.device.limits().subPixelPrecisionBits))};
     const PlacedPrimitive placed = geometry.placed(pose, pose.instances[0]);
     const glm::dmat4 fromCamera = fromEye(placed, round.view.eye());
-    const VisibleClusters host(grid, round.view.clipFromWorld() * fromCamera, item.range.bounds_min,
+    const VisibleMeshlets host(grid, round.view.clipFromWorld() * fromCamera, item.range.bounds_min,
                                item.range.bounds_max, !round.double_sided, item.mirrored);
     // From near to far, as Culling sorts.
     const glm::dvec4 depth = glm::transpose(fromCamera) * glm::dvec4(-round.view.backward(), 0);
     std::vector<std::pair<double, std::uint32_t>> order;
-    for (std::uint32_t k = 0; k < item.range.cluster_count; ++k) {
-        const std::uint32_t cluster = item.range.first_cluster + k;
-        order.emplace_back(glm::dot(depth, glm::dvec4(middleOf(geometry.cluster(cluster)), 1)), cluster);
+    for (std::uint32_t k = 0; k < item.range.meshlet_count; ++k) {
+        const std::uint32_t meshlet = item.range.first_meshlet + k;
+        order.emplace_back(glm::dot(depth, glm::dvec4(middleOf(geometry.meshlet(meshlet)), 1)), meshlet);
     }
     std::ranges::sort(order);
     const glm::mat4& clip = list.draws[item.draw].clip_from_object;
     std::size_t next = 0;
     for (const auto& [deep, number] : order) {
-        const Cluster& cluster = geometry.cluster(number);
-        const std::span<const std::uint32_t> of = geometry.indicesOf(cluster);
+        const Meshlet& meshlet = geometry.meshlet(number);
+        const std::span<const std::uint32_t> of = geometry.indicesOf(meshlet);
         counts.by_host += static_cast<std::size_t>(std::popcount(
-            host.of(cluster, geometry.clusterTriangles(), geometry.clusterTriangles()[number])));
+            host.of(meshlet, geometry.meshletTriangles(), geometry.meshletTriangles()[number])));
         for (std::size_t i = 0; i < of.size(); i += 3) {
             const std::array<std::uint32_t, 3> numbers{of[i], of[i + 1], of[i + 2]};
             // Two consecutive triangles with the same corners are indistinguishable.

@@ -79,12 +79,12 @@ TEST_F(DeviceCompilerTest, SaysWhatAKernelTakes) {
     passes.compute("cull");
     compiler_->takeRequests();
     passes.compute("choose");
-    pipelines.compute(Shader::cull_clusters_comp, {}, layout);
-    pipelines.compute(Shader::cull_clusters_comp, {}, layout);
+    pipelines.compute(Shader::cull_meshlets_comp, {}, layout);
+    pipelines.compute(Shader::cull_meshlets_comp, {}, layout);
     const std::vector<PipelineRequest> asked = compiler_->takeRequests();
     ASSERT_EQ(asked.size(), 1u) << "each once";
     EXPECT_EQ(asked[0].pass, "choose");
-    EXPECT_EQ(asked[0].name(), "cull_clusters.comp");
+    EXPECT_EQ(asked[0].name(), "cull_meshlets.comp");
     const CompiledPipeline compiled = compiler_->compile(asked).front();
     EXPECT_EQ(compiled.error, "");
     ASSERT_EQ(compiled.shaders.size(), 1u);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/contract/samples.h"
-#include "shared/draw/visible_clusters.h"
+#include "shared/draw/visible_meshlets.h"
 #include "shared/scene/view.h"
 
 #include <glm/geometric.hpp>

@@ -120,7 +120,7 @@ void DeviceCompiler::State::tryPipelines() const {
                            .fragment = Shader::probe_rounding_frag,
                            .colors = {VK_FORMAT_R32G32B32A32_SFLOAT}};
     makePipeline(context, draw, plainParts(draw));
-    makePipeline(context, shaderModule(Shader::cull_clusters_comp), valueOf({}));
+    makePipeline(context, shaderModule(Shader::cull_meshlets_comp), valueOf({}));
 }
 
 DeviceCompiler::DeviceCompiler(const std::string& choice) : state_(std::make_unique<State>()) {

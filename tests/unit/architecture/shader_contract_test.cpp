@@ -69,7 +69,7 @@ constexpr ModuleKind moduleKinds[] = {
     {"pose.comp", gpu::PASS_POSING},
     {"pose_", gpu::PASS_POSING},
     {"clipmap_", 0},
-    {"cull_clusters.comp", 0},
+    {"cull_meshlets.comp", 0},
     {"full_screen.vert", 0},
     {"layout.comp", 0},
     {"probe_", 0},

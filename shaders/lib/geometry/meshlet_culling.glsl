@@ -2,11 +2,11 @@
 // Culls meshlets and triangles of an instance that a view cannot show. Culled triangles cover no sample
 // under any device's rounding, so images stay bitwise identical (shared/draw/README.md, "What cannot
 // show"). All comparisons have a margin; NaN compares false and keeps the triangle.
-#ifndef CULLING_GLSL
-#define CULLING_GLSL
+#ifndef MESHLET_CULLING_GLSL
+#define MESHLET_CULLING_GLSL
 
 #include "shaders/lib/contract.glsl"
-#include "shared/contract/culling.h"
+#include "shared/contract/meshlet_culling.h"
 
 // The view's render target, from CullingConstants.
 struct CulledImage {

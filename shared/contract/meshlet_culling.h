@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // GPU culling: selects the triangles of a view that may be visible and writes indirect draws
 // (shared/draw/README.md, "What cannot show"). The compute shader reads all arrays by address.
-#ifndef DIPTYCH_CONTRACT_CULLING_H
-#define DIPTYCH_CONTRACT_CULLING_H
+#ifndef DIPTYCH_CONTRACT_MESHLET_CULLING_H
+#define DIPTYCH_CONTRACT_MESHLET_CULLING_H
 
 #include "types.h"
 
 CONTRACT_BEGIN
 
-CONTRACT_CONST(uint, CULLED_TRIANGLES, 64);  // largest number of triangles in a meshlet
-CONTRACT_CONST(uint, CULLED_CLUSTERS, 64);   // largest number of meshlets in a part
+CONTRACT_CONST(uint, MAX_MESHLET_TRIANGLES, 64);  // largest number of triangles in a meshlet
+CONTRACT_CONST(uint, MAX_PART_MESHLETS, 64);      // largest number of meshlets in a part
 
 // One thread per triangle; a workgroup processes this many triangles at a time.
 CONTRACT_CONST(uint, CULLING_THREADS, 256);
 // Workgroups in x; further ones continue in y.
 CONTRACT_CONST(uint, CULLING_GROUPS, 32768);
 
-struct CulledCluster {
+struct CulledMeshlet {
     vec3 min;  // object space, m: bounding box
     uint first_index;
     vec3 max;
@@ -41,7 +41,7 @@ struct CulledItem {
 struct CulledPart {
     uint item;
     uint first;  // index into the order of meshlets
-    uint clusters;
+    uint meshlets;
     uint place;    // offset of its first visible index
     uint command;  // index of its draw
 };
@@ -59,7 +59,7 @@ struct IndirectDraw {
 struct CullingConstants {
     uvec2 positions;  // vec3[], object, m
     uvec2 indices;    // uint[]: three per triangle, relative to CulledItem::first_vertex
-    uvec2 clusters;   // CulledCluster[]
+    uvec2 meshlets;   // CulledMeshlet[]
     uvec2 items;      // CulledItem[]
     uvec2 parts;      // CulledPart[part_count]
     uvec2 order;      // uint[]: meshlet indices

@@ -8,7 +8,7 @@
 // indirect draw. It first tests meshlets against the view, one thread each, then the triangles of several
 // meshlets at a time, one thread each. The offset of a visible triangle is the number of set bits before
 // its own.
-#include "shaders/lib/geometry/culling.glsl"
+#include "shaders/lib/geometry/meshlet_culling.glsl"
 
 layout(local_size_x = CULLING_THREADS) in;
 layout(push_constant, scalar) uniform CullingBlock { CullingConstants constants; };
@@ -19,60 +19,60 @@ layout(push_constant, scalar) uniform CullingBlock { CullingConstants constants;
     };
 ARRAY_AT(UintArray, uint)
 ARRAY_AT(Vec3Array, vec3)
-ARRAY_AT(ClusterArray, CulledCluster)
+ARRAY_AT(MeshletArray, CulledMeshlet)
 ARRAY_AT(ItemArray, CulledItem)
 ARRAY_AT(PartArray, CulledPart)
 ARRAY_AT(IndirectArray, IndirectDraw)
 #undef ARRAY_AT
 
 const uint WORDS = CULLING_THREADS / 32u;
-const uint AT_A_TIME = CULLING_THREADS / CULLED_TRIANGLES;  // meshlets
+const uint AT_A_TIME = CULLING_THREADS / MAX_MESHLET_TRIANGLES;  // meshlets
 
-shared uint in_view[CULLED_CLUSTERS / 32u];  // one bit per meshlet of the part
-shared uint clusters[CULLED_CLUSTERS];       // visible ones, in order
+shared uint in_view[MAX_PART_MESHLETS / 32u];  // one bit per meshlet of the part
+shared uint meshlets[MAX_PART_MESHLETS];       // visible ones, in order
 shared uint shown[WORDS];                    // one bit per triangle
 
 uint bitsBefore(const uint lane) { return (1u << (lane & 31u)) - 1u; }
 
 void main() {
-    uint number = gl_WorkGroupID.y * CULLING_GROUPS + gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;
-    if (number >= constants.part_count) return;
-    CulledPart part = PartArray(constants.parts).at[number];
+    uint part_index = gl_WorkGroupID.y * CULLING_GROUPS + gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;
+    if (part_index >= constants.part_count) return;
+    CulledPart part = PartArray(constants.parts).at[part_index];
     CulledItem item = ItemArray(constants.items).at[part.item];
     CulledImage image = CulledImage(constants.half_size, constants.samples, constants.position_error,
                                           constants.snap);
 
-    if (lane < CULLED_CLUSTERS / 32u) in_view[lane] = 0u;
+    if (lane < MAX_PART_MESHLETS / 32u) in_view[lane] = 0u;
     barrier();
-    uint cluster = 0u;
+    uint meshlet = 0u;
     bool keeps = false;
-    if (lane < part.clusters) {
-        cluster = UintArray(constants.order).at[part.first + lane];
-        CulledCluster of = ClusterArray(constants.clusters).at[cluster];
+    if (lane < part.meshlets) {
+        meshlet = UintArray(constants.order).at[part.first + lane];
+        CulledMeshlet of = MeshletArray(constants.meshlets).at[meshlet];
         keeps = !isBeyondView(item, of.min, of.max);
         if (keeps) atomicOr(in_view[lane / 32u], 1u << (lane & 31u));
     }
     barrier();
-    uint cluster_count = 0u, cluster_offset = 0u;
-    for (uint i = 0u; i < CULLED_CLUSTERS / 32u; ++i) {
-        cluster_offset += i < lane / 32u ? uint(bitCount(in_view[i])) : 0u;
-        cluster_count += uint(bitCount(in_view[i]));
+    uint meshlet_count = 0u, meshlet_offset = 0u;
+    for (uint i = 0u; i < MAX_PART_MESHLETS / 32u; ++i) {
+        meshlet_offset += i < lane / 32u ? uint(bitCount(in_view[i])) : 0u;
+        meshlet_count += uint(bitCount(in_view[i]));
     }
     if (keeps) {
-        cluster_offset += uint(bitCount(in_view[lane / 32u] & bitsBefore(lane)));
-        clusters[cluster_offset] = cluster;
+        meshlet_offset += uint(bitCount(in_view[lane / 32u] & bitsBefore(lane)));
+        meshlets[meshlet_offset] = meshlet;
     }
     barrier();
 
     uint written = 0u;  // triangles
-    for (uint first = 0u; first < cluster_count; first += AT_A_TIME) {
+    for (uint first = 0u; first < meshlet_count; first += AT_A_TIME) {
         if (lane < WORDS) shown[lane] = 0u;
         barrier();
-        uint k = first + lane / CULLED_TRIANGLES, triangle = lane % CULLED_TRIANGLES;
+        uint k = first + lane / MAX_MESHLET_TRIANGLES, triangle = lane % MAX_MESHLET_TRIANGLES;
         bool shows = false;
         uvec3 corners = uvec3(0u);
-        if (k < cluster_count) {
-            CulledCluster of = ClusterArray(constants.clusters).at[clusters[k]];
+        if (k < meshlet_count) {
+            CulledMeshlet of = MeshletArray(constants.meshlets).at[meshlets[k]];
             if (triangle < of.triangles) {
                 UintArray indices = UintArray(constants.indices);
                 Vec3Array positions = Vec3Array(constants.positions);

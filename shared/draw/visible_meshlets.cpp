@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/draw/visible_clusters.h"
+#include "shared/draw/visible_meshlets.h"
 
 #include "shared/contract/samples.h"
 
@@ -21,7 +21,7 @@ namespace {
 constexpr double productError = 14.0 / (1 << 24);
 // The same for a window position, as a fraction of the image size: a division, a product and a sum.
 constexpr double placeRounding = 8.0 / (1 << 24);
-// For ClusterTriangles::facing(): four products of rounded factors and three sums.
+// For MeshletTriangles::facing(): four products of rounded factors and three sums.
 constexpr double facingError = 16.0 / (1 << 24);
 
 // Whether an interval contains the sample at `place`, in pixels from a pixel's left or upper edge, of any
@@ -51,7 +51,7 @@ double positionError(const SampleGrid& grid) {
     return placeRounding * std::max(grid.width, grid.height);
 }
 
-VisibleClusters::VisibleClusters(const SampleGrid& grid, const glm::dmat4& clip_from_object,
+VisibleMeshlets::VisibleMeshlets(const SampleGrid& grid, const glm::dmat4& clip_from_object,
                                  const glm::dvec3& min, const glm::dvec3& max, bool culls_backs,
                                  bool mirrored)
     : grid_(grid),
@@ -103,15 +103,15 @@ VisibleClusters::VisibleClusters(const SampleGrid& grid, const glm::dmat4& clip_
     faces_ = culls_backs && area_scale_ > 0 && std::isfinite(area_scale_) && finite(eye_);
 }
 
-bool VisibleClusters::isBetweenSamples(const Cluster& cluster, double nearest, double off) const {
-    const glm::dvec3 size = glm::dvec3(cluster.max) - glm::dvec3(cluster.min);
+bool VisibleMeshlets::isBetweenSamples(const Meshlet& meshlet, double nearest, double off) const {
+    const glm::dvec3 size = glm::dvec3(meshlet.max) - glm::dvec3(meshlet.min);
     // Geometry between samples is less than a pixel wide or high, so larger boxes are not tested.
     if (!(glm::length(size) * std::min(pixels_.x, pixels_.y) < 4 * nearest)) return false;
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     for (unsigned corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 p(double{(corner & 1u) != 0 ? cluster.max.x : cluster.min.x},
-                           double{(corner & 2u) != 0 ? cluster.max.y : cluster.min.y},
-                           double{(corner & 4u) != 0 ? cluster.max.z : cluster.min.z}, 1.0);
+        const glm::dvec4 p(double{(corner & 1u) != 0 ? meshlet.max.x : meshlet.min.x},
+                           double{(corner & 2u) != 0 ? meshlet.max.y : meshlet.min.y},
+                           double{(corner & 4u) != 0 ? meshlet.max.z : meshlet.min.z}, 1.0);
         const double w = glm::dot(rows_[3], p);
         const glm::dvec2 at((glm::dot(rows_[0], p) / w + 1) * 0.5 * grid_.width,
                             (glm::dot(rows_[1], p) / w + 1) * 0.5 * grid_.height);
@@ -122,22 +122,22 @@ bool VisibleClusters::isBetweenSamples(const Cluster& cluster, double nearest, d
            !holdsSample(low.y - off, high.y + off, grid_.samples, 4);
 }
 
-double VisibleClusters::positionErrorOf(double nearest) const {
+double VisibleMeshlets::positionErrorOf(double nearest) const {
     return positionError(grid_) +
            0.5 * std::max(grid_.width * (error_.x + error_.w), grid_.height * (error_.y + error_.w)) /
                nearest;
 }
 
-TriangleSet VisibleClusters::of(const Cluster& cluster, const ClusterTriangles& triangles,
-                                const ClusterTriangles::Entry& entry) const {
-    const glm::dvec3 middle = middleOf(cluster), half = glm::dvec3(cluster.max) - middle;
+TriangleSet VisibleMeshlets::of(const Meshlet& meshlet, const MeshletTriangles& triangles,
+                                const MeshletTriangles::Entry& entry) const {
+    const glm::dvec3 middle = middleOf(meshlet), half = glm::dvec3(meshlet.max) - middle;
     bool within = within_;
     if (!within) {
         within = true;
         for (const Side& side : sides_) {
-            const double at = glm::dot(side.normal, middle) + side.w, reach = glm::dot(side.size, half);
-            if (at + reach < -side.slack) return 0;
-            within = within && at - reach >= side.slack;
+            const double at = glm::dot(side.normal, middle) + side.w, extent = glm::dot(side.size, half);
+            if (at + extent < -side.slack) return 0;
+            within = within && at - extent >= side.slack;
         }
         // Clipping creates other corners, which may lie on the lines between samples.
         if (!within) return entry.all();
@@ -147,7 +147,7 @@ TriangleSet VisibleClusters::of(const Cluster& cluster, const ClusterTriangles& 
                  nearest = at - deep - error_.w, farthest = at + deep;
     if (!(nearest > 0)) return entry.all();
     const double placed = positionErrorOf(nearest), off = grid_.snap + placed;
-    if (isBetweenSamples(cluster, nearest, off)) return 0;
+    if (isBetweenSamples(meshlet, nearest, off)) return 0;
     TriangleSet set = entry.all();
     if (!(entry.largest_circle > 0)) return set;
     if (faces_) {
@@ -160,7 +160,7 @@ TriangleSet VisibleClusters::of(const Cluster& cluster, const ClusterTriangles& 
         const glm::dvec3 eye = eye_at_infinity_ ? eye_ : eye_ - middle;
         const double behind =
             area * farthest * farthest * farthest / area_scale_ +
-            facingError * double{entry.largest_circle} * (glm::length(eye) + double{entry.reach});
+            facingError * double{entry.largest_circle} * (glm::length(eye) + double{entry.radius});
         const auto min = static_cast<float>(-behind * (1 + 1e-6));
         set = triangles.facing(entry, glm::vec3(eye), eye_at_infinity_ ? 0.0f : 1.0f, min);
     }
@@ -168,7 +168,7 @@ TriangleSet VisibleClusters::of(const Cluster& cluster, const ClusterTriangles& 
     // cover a sample.
     constexpr double small = 6;
     if (grid_.samples > 1 || !(double{entry.largest_circle} * pixels_.z < small * nearest)) return set;
-    ClusterTriangles::Projection projection;
+    MeshletTriangles::Projection projection;
     const auto row = [&](int r, double scale) {
         return glm::vec4(scale * glm::dvec4(glm::dvec3(rows_[r]), glm::dot(rows_[r], glm::dvec4(middle, 1))));
     };

@@ -3,7 +3,7 @@
 // no sample on any device, whatever its rounding, so images do not change. No Vulkan.
 #pragma once
 
-#include "shared/draw/cluster_triangles.h"
+#include "shared/draw/meshlet_triangles.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -23,17 +23,17 @@ struct SampleGrid {
 double positionError(const SampleGrid& grid);
 
 // Visibility of one instance.
-class VisibleClusters {
+class VisibleMeshlets {
 public:
     // `clip_from_object`: for positions in the box from `min` to `max`, m; shaders multiply in float32.
     // `culls_backs`: the draw culls back faces. `mirrored`: front faces are counter-clockwise in object
     // space and clockwise on screen.
-    VisibleClusters(const SampleGrid& grid, const glm::dmat4& clip_from_object, const glm::dvec3& min,
+    VisibleMeshlets(const SampleGrid& grid, const glm::dmat4& clip_from_object, const glm::dvec3& min,
                     const glm::dvec3& max, bool culls_backs, bool mirrored);
 
     // Triangles of the meshlet that may be visible.
-    TriangleSet of(const Cluster& cluster, const ClusterTriangles& triangles,
-                   const ClusterTriangles::Entry& entry) const;
+    TriangleSet of(const Meshlet& meshlet, const MeshletTriangles& triangles,
+                   const MeshletTriangles::Entry& entry) const;
     // Error bound of a shader's product of the matrix and a position, per component of clip space.
     const glm::dvec4& error() const { return error_; }
 
@@ -44,7 +44,7 @@ private:
     };
     // Error bound of a meshlet corner's window position, pixels. `nearest`: its smallest w.
     double positionErrorOf(double nearest) const;
-    bool isBetweenSamples(const Cluster& cluster, double nearest, double off) const;
+    bool isBetweenSamples(const Meshlet& meshlet, double nearest, double off) const;
 
     SampleGrid grid_;
     glm::dmat4 rows_;            // of clip_from_object

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/draw/clusters.h"
+#include "shared/draw/meshlets.h"
 
 #include <glm/common.hpp>
 
@@ -28,7 +28,7 @@ using Triangles = std::span<std::uint32_t>;
 // Calls leaf(triangles) for each part in order.
 template <class Leaf>
 void halve(std::span<const glm::vec3> centres, Triangles triangles, const Leaf& leaf) {
-    if (triangles.size() <= clusterTriangles) {
+    if (triangles.size() <= maxMeshletTriangles) {
         std::ranges::sort(triangles);
         leaf(triangles);
         return;
@@ -49,7 +49,7 @@ void halve(std::span<const glm::vec3> centres, Triangles triangles, const Leaf& 
 
 }  // namespace
 
-std::vector<Cluster> cutIntoClusters(std::span<const glm::vec3> positions, std::span<std::uint32_t> indices) {
+std::vector<Meshlet> buildMeshlets(std::span<const glm::vec3> positions, std::span<std::uint32_t> indices) {
     const std::vector<std::uint32_t> requested(indices.begin(), indices.end());
     const std::size_t count = requested.size() / 3;
     std::vector<glm::vec3> centres(count);
@@ -60,7 +60,7 @@ std::vector<Cluster> cutIntoClusters(std::span<const glm::vec3> positions, std::
     }
     std::vector<std::uint32_t> triangles(count);
     std::iota(triangles.begin(), triangles.end(), 0u);
-    std::vector<Cluster> clusters;
+    std::vector<Meshlet> meshlets;
     std::uint32_t next = 0;
     halve(centres, triangles, [&](Triangles part) {
         Box box;
@@ -71,9 +71,9 @@ std::vector<Cluster> cutIntoClusters(std::span<const glm::vec3> positions, std::
                 indices[next++] = index;
                 box.add(positions[index]);
             }
-        clusters.push_back({first, next - first, box.min, box.max});
+        meshlets.push_back({first, next - first, box.min, box.max});
     });
-    return clusters;
+    return meshlets;
 }
 
 }  // namespace diptych

@@ -3,7 +3,7 @@
 // No Vulkan.
 #pragma once
 
-#include "shared/draw/clusters.h"
+#include "shared/draw/meshlets.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -17,28 +17,28 @@
 namespace diptych {
 
 // Origin of a meshlet's planes and corners.
-inline glm::dvec3 middleOf(const Cluster& cluster) {
-    return (glm::dvec3(cluster.min) + glm::dvec3(cluster.max)) * 0.5;
+inline glm::dvec3 middleOf(const Meshlet& meshlet) {
+    return (glm::dvec3(meshlet.min) + glm::dvec3(meshlet.max)) * 0.5;
 }
 
 // Set of a meshlet's triangles, one bit each.
 using TriangleSet = std::uint64_t;
-static_assert(clusterTriangles <= 64);
+static_assert(maxMeshletTriangles <= 64);
 
 // Culling data of any number of meshlets.
-class ClusterTriangles {
+class MeshletTriangles {
 public:
     // Data of one meshlet. A plane's normal has as its length the inradius r of the triangle; d is its dot
     // product with any point of the triangle. For an eye e, dot(normal, e) - d is r times the distance
     // from the plane, negative behind the triangle.
     struct Entry {
-        std::uint32_t first_plane = 0;   // offset of `planes` x of normals, then as many y, z and d
-        std::uint32_t first_corner = 0;  // offset of `corners` x of positions, then as many y and z
-        std::uint32_t first_number = 0;  // offset of the triangles' corner indices, three each
+        std::uint32_t first_plane = 0;         // offset of `planes` x of normals, then as many y, z and d
+        std::uint32_t first_corner = 0;        // offset of `corners` x of positions, then as many y and z
+        std::uint32_t first_corner_index = 0;  // offset of the triangles' corner indices, three each
         std::uint16_t planes = 0, corners = 0, triangles = 0;
         // Over the triangles with an area, m: largest inradius r and shortest perimeter.
         float largest_circle = 0, shortest_perimeter = 0;
-        float reach = 0;  // m, from the centre to a corner of the box
+        float radius = 0;  // m, from the centre to a corner of the box
         TriangleSet all() const {
             return triangles < 64 ? (TriangleSet{1} << triangles) - 1 : ~TriangleSet{0};
         }
@@ -46,13 +46,13 @@ public:
 
     // `indices`: of the meshlet, three per triangle, all below positions.size(). Positions in object
     // space, m.
-    void add(const Cluster& cluster, std::span<const glm::vec3> positions,
+    void add(const Meshlet& meshlet, std::span<const glm::vec3> positions,
              std::span<const std::uint32_t> indices);
     // Appends the meshlets of another.
-    void add(const ClusterTriangles& others);
-    const Entry& operator[](std::size_t cluster) const { return entries_[cluster]; }
+    void add(const MeshletTriangles& others);
+    const Entry& operator[](std::size_t meshlet) const { return entries_[meshlet]; }
     std::uint64_t bytes() const {
-        return values_.size() * sizeof(float) + numbers_.size() + entries_.size() * sizeof(Entry);
+        return values_.size() * sizeof(float) + corner_indices_.size() + entries_.size() * sizeof(Entry);
     }
 
     // Triangles whose dot(normal, eye) - eye_w * d is not below `least`. `eye`: relative to the meshlet's
@@ -74,7 +74,7 @@ public:
 private:
     std::vector<Entry> entries_;
     std::vector<float> values_;
-    std::vector<std::uint8_t> numbers_;
+    std::vector<std::uint8_t> corner_indices_;
 };
 
 }  // namespace diptych

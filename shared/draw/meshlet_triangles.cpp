@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/draw/cluster_triangles.h"
+#include "shared/draw/meshlet_triangles.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -31,7 +31,7 @@ struct EdgeSide {
 
 }  // namespace
 
-void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> positions,
+void MeshletTriangles::add(const Meshlet& meshlet, std::span<const glm::vec3> positions,
                            std::span<const std::uint32_t> indices) {
     Entry entry;
     const std::size_t count = indices.size() / 3;
@@ -39,7 +39,7 @@ void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> po
     entry.planes = filledUp(count);
     entry.first_plane = static_cast<std::uint32_t>(values_.size());
     values_.resize(values_.size() + std::size_t{4} * entry.planes);
-    const glm::dvec3 middle = middleOf(cluster);
+    const glm::dvec3 middle = middleOf(meshlet);
     double largest = 0, shortest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < count; ++i) {
         std::array<glm::dvec3, 3> corners;
@@ -61,7 +61,7 @@ void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> po
     }
     entry.largest_circle = static_cast<float>(largest);
     entry.shortest_perimeter = static_cast<float>(shortest);
-    entry.reach = static_cast<float>(glm::distance(glm::dvec3(cluster.max), middle));
+    entry.radius = static_cast<float>(glm::distance(glm::dvec3(meshlet.max), middle));
 
     std::vector<std::uint32_t> used(indices.begin(), indices.end());
     std::ranges::sort(used);
@@ -76,31 +76,33 @@ void ClusterTriangles::add(const Cluster& cluster, std::span<const glm::vec3> po
         value[entry.corners] = position.y;
         value[2 * entry.corners] = position.z;
     }
-    entry.first_number = static_cast<std::uint32_t>(numbers_.size());
+    entry.first_corner_index = static_cast<std::uint32_t>(corner_indices_.size());
     for (const std::uint32_t index : indices)
-        numbers_.push_back(static_cast<std::uint8_t>(std::ranges::lower_bound(used, index) - used.begin()));
+        corner_indices_.push_back(
+            static_cast<std::uint8_t>(std::ranges::lower_bound(used, index) - used.begin()));
     entries_.push_back(entry);
 }
 
-void ClusterTriangles::add(const ClusterTriangles& others) {
+void MeshletTriangles::add(const MeshletTriangles& others) {
     constexpr std::size_t max = std::numeric_limits<std::uint32_t>::max();
-    const std::size_t values = values_.size(), numbers = numbers_.size();
-    if (values + others.values_.size() > max || numbers + others.numbers_.size() > max)
+    const std::size_t values = values_.size(), corner_indices = corner_indices_.size();
+    if (values + others.values_.size() > max || corner_indices + others.corner_indices_.size() > max)
         throw std::runtime_error("the scene has over 2^29 triangles, too many for culling");
     values_.insert(values_.end(), others.values_.begin(), others.values_.end());
-    numbers_.insert(numbers_.end(), others.numbers_.begin(), others.numbers_.end());
+    corner_indices_.insert(corner_indices_.end(), others.corner_indices_.begin(),
+                           others.corner_indices_.end());
     for (Entry entry : others.entries_) {
         entry.first_plane += static_cast<std::uint32_t>(values);
         entry.first_corner += static_cast<std::uint32_t>(values);
-        entry.first_number += static_cast<std::uint32_t>(numbers);
+        entry.first_corner_index += static_cast<std::uint32_t>(corner_indices);
         entries_.push_back(entry);
     }
 }
 
-TriangleSet ClusterTriangles::facing(const Entry& entry, const glm::vec3& eye, float eye_w, float min) const {
+TriangleSet MeshletTriangles::facing(const Entry& entry, const glm::vec3& eye, float eye_w, float min) const {
     const float* const x = values_.data() + entry.first_plane;
     const float *const y = x + entry.planes, *const z = y + entry.planes, *const d = z + entry.planes;
-    std::array<float, clusterTriangles> before;
+    std::array<float, maxMeshletTriangles> before;
     for (std::size_t i = 0; i < entry.planes; ++i)
         before[i] = x[i] * eye.x + y[i] * eye.y + z[i] * eye.z - d[i] * eye_w;
     TriangleSet set = 0;
@@ -108,11 +110,11 @@ TriangleSet ClusterTriangles::facing(const Entry& entry, const glm::vec3& eye, f
     return set;
 }
 
-TriangleSet ClusterTriangles::covering(const Entry& entry, TriangleSet from,
+TriangleSet MeshletTriangles::covering(const Entry& entry, TriangleSet from,
                                        const Projection& projection) const {
     const float* const px = values_.data() + entry.first_corner;
     const float *const py = px + entry.corners, *const pz = py + entry.corners;
-    std::array<float, filledUp(3 * clusterTriangles)> atX, atY;
+    std::array<float, filledUp(3 * maxMeshletTriangles)> atX, atY;
     const glm::vec4 &rowX = projection.x, &rowY = projection.y, &w = projection.w;
     for (std::size_t i = 0; i < entry.corners; ++i) {
         const float scale = 1.0f / (w.x * px[i] + w.y * py[i] + w.z * pz[i] + w.w);
@@ -123,8 +125,8 @@ TriangleSet ClusterTriangles::covering(const Entry& entry, TriangleSet from,
     const float off = projection.off, wide = 1.4143f * off, turn = projection.clockwise ? 1.0f : -1.0f;
     TriangleSet covering = 0;
     for (TriangleSet left = from; left != 0; left &= left - 1) {
-        const int number = std::countr_zero(left);
-        const std::uint8_t* const corners = numbers_.data() + entry.first_number + 3 * number;
+        const int triangle = std::countr_zero(left);
+        const std::uint8_t* const corners = corner_indices_.data() + entry.first_corner_index + 3 * triangle;
         const glm::vec2 a(atX[corners[0]], atY[corners[0]]), b(atX[corners[1]], atY[corners[1]]),
             c(atX[corners[2]], atY[corners[2]]);
         const float low = std::min(a.x, std::min(b.x, c.x)) - off,
@@ -156,7 +158,7 @@ TriangleSet ClusterTriangles::covering(const Entry& entry, TriangleSet from,
                     covers = covers | inside | (behind & projection.either_side);
                 }
         }
-        covering |= TriangleSet{covers} << number;
+        covering |= TriangleSet{covers} << triangle;
     }
     return covering;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshlets: together they are the primitive they were cut from.
-#include "shared/draw/clusters.h"
+#include "shared/draw/meshlets.h"
 
 #include <gtest/gtest.h>
 
@@ -43,35 +43,35 @@ std::vector<std::array<std::uint32_t, 3>> sorted(const std::vector<std::uint32_t
     return all;
 }
 
-TEST(Clusters, HoldEveryTriangleOnceWithItsCornersInOrder) {
+TEST(Meshlets, HoldEveryTriangleOnceWithItsCornersInOrder) {
     for (const std::size_t count : {1, 64, 65, 1000}) {
         const Triangles requested = soup(count);
         std::vector<std::uint32_t> indices = requested.indices;
-        const std::vector<Cluster> clusters = cutIntoClusters(requested.positions, indices);
+        const std::vector<Meshlet> meshlets = buildMeshlets(requested.positions, indices);
         EXPECT_EQ(sorted(indices), sorted(requested.indices));
         std::uint32_t next = 0;
-        for (const Cluster& cluster : clusters) {
-            EXPECT_EQ(cluster.first_index, next);
-            next += cluster.index_count;
-            EXPECT_LE(cluster.index_count, 3 * clusterTriangles);
-            EXPECT_GE(cluster.index_count, 3 * std::min(count, clusterTriangles / 2));
-            glm::vec3 min = requested.positions[indices[cluster.first_index]], max = min;
-            for (std::uint32_t i = 0; i < cluster.index_count; ++i) {
+        for (const Meshlet& meshlet : meshlets) {
+            EXPECT_EQ(meshlet.first_index, next);
+            next += meshlet.index_count;
+            EXPECT_LE(meshlet.index_count, 3 * maxMeshletTriangles);
+            EXPECT_GE(meshlet.index_count, 3 * std::min(count, maxMeshletTriangles / 2));
+            glm::vec3 min = requested.positions[indices[meshlet.first_index]], max = min;
+            for (std::uint32_t i = 0; i < meshlet.index_count; ++i) {
                 if (i % 3 == 0 && i > 0) {
-                    EXPECT_LT(indices[cluster.first_index + i - 3], indices[cluster.first_index + i]);
+                    EXPECT_LT(indices[meshlet.first_index + i - 3], indices[meshlet.first_index + i]);
                 }
-                min = glm::min(min, requested.positions[indices[cluster.first_index + i]]);
-                max = glm::max(max, requested.positions[indices[cluster.first_index + i]]);
+                min = glm::min(min, requested.positions[indices[meshlet.first_index + i]]);
+                max = glm::max(max, requested.positions[indices[meshlet.first_index + i]]);
             }
-            EXPECT_EQ(cluster.min, min);
-            EXPECT_EQ(cluster.max, max);
+            EXPECT_EQ(meshlet.min, min);
+            EXPECT_EQ(meshlet.max, max);
         }
         EXPECT_EQ(next, requested.indices.size());
     }
 }
 
 // Neighbours are together: the volume of all meshlets' boxes is a small fraction of the whole.
-TEST(Clusters, AreSmall) {
+TEST(Meshlets, AreSmall) {
     Triangles requested = soup(4096);
     std::ranges::sort(requested.indices);
     for (std::size_t i = 0; i < requested.positions.size(); i += 3) {
@@ -80,8 +80,8 @@ TEST(Clusters, AreSmall) {
         requested.positions[i + 2] = at + glm::vec3(0, 0, 0.01f);
     }
     double sum = 0;
-    for (const Cluster& cluster : cutIntoClusters(requested.positions, requested.indices)) {
-        const glm::vec3 side = cluster.max - cluster.min;
+    for (const Meshlet& meshlet : buildMeshlets(requested.positions, requested.indices)) {
+        const glm::vec3 side = meshlet.max - meshlet.min;
         sum += double{side.x} * double{side.z};
     }
     EXPECT_LT(sum, 1.5 * 16 * 4);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Culled triangles cover no sample, whatever the device's rounding; and most triangles that can be culled
 // are.
-#include "shared/draw/visible_clusters.h"
+#include "shared/draw/visible_meshlets.h"
 
 #include "tests/support/rasteriser.h"
 
@@ -36,20 +36,20 @@ Counts expectNothingShownIsLeftOut(const TriangleMesh& mesh, const SampleGrid& g
                                    const glm::dmat4& clipFromObject, bool mirrored, bool culls,
                                    const std::string& name) {
     std::vector<std::uint32_t> indices = mesh.indices;
-    const std::vector<Cluster> clusters = cutIntoClusters(mesh.positions, indices);
+    const std::vector<Meshlet> meshlets = buildMeshlets(mesh.positions, indices);
     glm::dvec3 min(mesh.positions[0]), max(min);
     for (const glm::vec3& p : mesh.positions) {
         min = glm::min(min, glm::dvec3(p));
         max = glm::max(max, glm::dvec3(p));
     }
-    ClusterTriangles triangles;
-    const VisibleClusters shown(grid, clipFromObject, min, max, culls, mirrored);
+    MeshletTriangles triangles;
+    const VisibleMeshlets shown(grid, clipFromObject, min, max, culls, mirrored);
     Counts counts;
-    for (std::size_t k = 0; k < clusters.size(); ++k) {
-        const Cluster& cluster = clusters[k];
-        const auto of = std::span(std::as_const(indices)).subspan(cluster.first_index, cluster.index_count);
-        triangles.add(cluster, mesh.positions, of);
-        const TriangleSet set = shown.of(cluster, triangles, triangles[k]);
+    for (std::size_t k = 0; k < meshlets.size(); ++k) {
+        const Meshlet& meshlet = meshlets[k];
+        const auto of = std::span(std::as_const(indices)).subspan(meshlet.first_index, meshlet.index_count);
+        triangles.add(meshlet, mesh.positions, of);
+        const TriangleSet set = shown.of(meshlet, triangles, triangles[k]);
         EXPECT_EQ(set & ~triangles[k].all(), 0u) << name;
         for (std::size_t i = 0; i < of.size() / 3; ++i) {
             std::array<glm::vec3, 3> corners;
@@ -74,7 +74,7 @@ glm::dmat4 clipOf(const SampleGrid& grid, const glm::dvec3& eye, const glm::dvec
     return glm::translate(viewOf(grid, eye, target, fov, near, orthographic).clipFromWorld(), -eye);
 }
 
-TEST(VisibleClusters, NothingThatCoversASampleIsLeftOut) {
+TEST(VisibleMeshlets, NothingThatCoversASampleIsLeftOut) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> part(-1, 1);
     Counts all;
@@ -109,7 +109,7 @@ TEST(VisibleClusters, NothingThatCoversASampleIsLeftOut) {
 }
 
 // Seen along a triangle's plane, from slightly in front or behind: near the decision.
-TEST(VisibleClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
+TEST(VisibleMeshlets, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> part(-1, 1);
     std::size_t shown = 0, left = 0;
@@ -147,7 +147,7 @@ TEST(VisibleClusters, NothingSeenAlongItsPlaneIsLeftOutThatCoversASample) {
 }
 
 // Meshlets that cross an edge of the image by a pixel at most.
-TEST(VisibleClusters, NothingThatReachesIntoTheViewIsLeftOut) {
+TEST(VisibleMeshlets, NothingThatReachesIntoTheViewIsLeftOut) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> part(0, 1);
     std::size_t shown = 0, left = 0;
@@ -176,7 +176,7 @@ TEST(VisibleClusters, NothingThatReachesIntoTheViewIsLeftOut) {
 }
 
 // A ball in the centre of an image of common size: nearly all of the back half is culled.
-TEST(VisibleClusters, BacksAreLeftOut) {
+TEST(VisibleMeshlets, BacksAreLeftOut) {
     std::mt19937 random(3);
     const TriangleMesh ball = ballOf(24, 0, random);
     const SampleGrid grid{640, 360, 1, 1.0 / 256};
@@ -190,7 +190,7 @@ TEST(VisibleClusters, BacksAreLeftOut) {
     EXPECT_GT(kept(false, false), 0.95);  // some are between samples
 }
 
-TEST(VisibleClusters, WhatIsBeyondTheViewIsLeftOut) {
+TEST(VisibleMeshlets, WhatIsBeyondTheViewIsLeftOut) {
     std::mt19937 random(3);
     const TriangleMesh ball = ballOf(24, 0, random);
     const SampleGrid grid{640, 360, 1, 1.0 / 256};
@@ -202,7 +202,7 @@ TEST(VisibleClusters, WhatIsBeyondTheViewIsLeftOut) {
 }
 
 // 2,304 triangles within a pixel, and within a quarter of one.
-TEST(VisibleClusters, WhatIsBetweenSamplesIsLeftOut) {
+TEST(VisibleMeshlets, WhatIsBetweenSamplesIsLeftOut) {
     std::mt19937 random(3);
     const TriangleMesh ball = ballOf(24, 0, random);
     for (const int samples : {1, 4})
