@@ -73,10 +73,10 @@ GpuLights lightsOf(const SceneView& seen, const Settings& settings) {
 
 // One thread per tile and word of lights suits a GPU; lavapipe is faster marking the cells of each light
 // (shared/light/MEASURED.md, "What lists cost").
-ListKernel kernelOf(LightKernel kernel, const Device& device) {
+LightCullingKernel kernelOf(LightKernel kernel, const Device& device) {
     if (kernel == LightKernel::automatic)
-        return device.profile().wide_groups ? ListKernel::gather : ListKernel::scatter;
-    return kernel == LightKernel::scatter ? ListKernel::scatter : ListKernel::gather;
+        return device.profile().wide_groups ? LightCullingKernel::gather : LightCullingKernel::scatter;
+    return kernel == LightKernel::scatter ? LightCullingKernel::scatter : LightCullingKernel::gather;
 }
 
 std::optional<Materials> posedMaterials(Device& device, SharedResources& shared, const Materials& rest,

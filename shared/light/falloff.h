@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Falloff of lights on the host, as shaders/lib/lights/lights.glsl computes it.
+// Falloff of lights on the host, as shaders/lib/lights/punctual_lights.glsl computes it.
 #pragma once
 
 #include <algorithm>

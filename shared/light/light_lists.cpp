@@ -111,7 +111,7 @@ LightLists::LightLists(Device& device, Uploader& uploader, const ListLayouts& la
     grid_buffer_ = makeBuffer<gpu::LightGrid>(device, uploader, "light grid", std::span(&grid_, 1),
                                               VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
     uploader.flush();
-    if (any()) makeInputsOfPasses();
+    if (any()) makePassInputs();
 }
 
 void LightLists::makeLists() {
@@ -128,8 +128,8 @@ void LightLists::makeLists() {
     grid_.indices = addressWords(indices_.address());
 }
 
-void LightLists::makeInputsOfPasses() {
-    const bool gathers = choice_.kernel == ListKernel::gather;
+void LightLists::makePassInputs() {
+    const bool gathers = choice_.kernel == LightCullingKernel::gather;
     candidates_ = listBuffer(
         device_, "light candidates",
         gathers ? std::uint64_t{grid_.words} * (grid_.tiles.x * grid_.tiles.y + grid_.slices) : 0, 4);
@@ -200,11 +200,11 @@ void LightLists::addPasses(PassList& passes, Pipelines& pipelines, const Variant
     // Only tiled lists read the depth, but lavapipe accesses every descriptor of a bound set.
     sets_.image(0, gpu::BINDING_LISTS_DEPTH, passes.view(depth), sampler_,
                 VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
-    addMasks(step, depth);
-    addLists(step);
+    addLightCulling(step, depth);
+    addListBuilding(step);
 }
 
-void LightLists::addMasks(const Step& step, ImageRef depth) const {
+void LightLists::addLightCulling(const Step& step, ImageRef depth) const {
     PassList& passes = step.passes;
     const BufferRef candidates = passes.buffer("light candidates", candidates_),
                     masks = passes.buffer("light masks", masks_),
@@ -213,10 +213,10 @@ void LightLists::addMasks(const Step& step, ImageRef depth) const {
     const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
     const bool tiled = choice_.lists == gpu::LISTS_TILED;
     if (tiled)
-        step("assign depth bounds", Shader::light_depths_comp, {grid_.tiles.x, grid_.tiles.y, 1})
+        step("assign depth bounds", Shader::cull_lights_depth_bounds_comp, {grid_.tiles.x, grid_.tiles.y, 1})
             .samples(depth, inCompute)
             .uses(depths, write);
-    const bool gathers = choice_.kernel == ListKernel::gather;
+    const bool gathers = choice_.kernel == LightCullingKernel::gather;
     Pass& clear =
         passes.copy(assigning).uses(overflow, access::transferWrite).uses(masks, access::transferWrite);
     if (gathers) clear.uses(candidates, access::transferWrite);
@@ -228,19 +228,19 @@ void LightLists::addMasks(const Step& step, ImageRef depth) const {
     // Both shaders write parts of the masks; scatter uses atomics.
     const glm::uvec3 byLight = inRows(std::uint64_t{grid_.local_lights} * gpu::LIGHT_THREADS);
     if (gathers)
-        step(assigning, Shader::light_candidates_comp, byLight)
+        step(assigning, Shader::cull_lights_candidates_comp, byLight)
             .uses(candidates, read)
             .uses(candidates, write);
-    Pass& mark = gathers ? step(assigning, Shader::light_gather_comp,
+    Pass& mark = gathers ? step(assigning, Shader::cull_lights_gather_comp,
                                 inRows(std::uint64_t{grid_.words} * grid_.tiles.x * grid_.tiles.y,
                                        (grid_.slices + slicesOfThread - 1) / slicesOfThread))
                                .uses(candidates, read)
-                         : step(assigning, Shader::light_scatter_comp, byLight).uses(masks, read);
+                         : step(assigning, Shader::cull_lights_scatter_comp, byLight).uses(masks, read);
     mark.uses(masks, write);
     if (tiled) mark.uses(depths, read);
 }
 
-void LightLists::addLists(const Step& step) const {
+void LightLists::addListBuilding(const Step& step) const {
     PassList& passes = step.passes;
     const BufferRef masks = passes.buffer("light masks", masks_),
                     used = passes.buffer("used words", used_words_),
@@ -248,14 +248,14 @@ void LightLists::addLists(const Step& step) const {
                     begins = passes.buffer("list begins", four_begins_),
                     overflow = passes.buffer("list overflow", overflow_);
     const Access read = access::storageRead(inCompute), write = access::storageWrite(inCompute);
-    step(assigning, Shader::light_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
+    step(assigning, Shader::light_list_count_comp, {workgroups(grid_.list_stride / 4), 1, 1})
         .uses(masks, addressed_ ? read : access::texelRead(inCompute))
         .uses(used, write)
         .uses(counts, write)
         .uses(counts, read)
         .uses(begins, write);
-    step(assigning, Shader::light_scan_comp, {1, 1, 1}).uses(begins, read).uses(begins, write);
-    step(assigning, Shader::light_fill_comp, {workgroups(grid_.lists), grid_.segments, 1})
+    step(assigning, Shader::light_list_scan_comp, {1, 1, 1}).uses(begins, read).uses(begins, write);
+    step(assigning, Shader::light_list_fill_comp, {workgroups(grid_.lists), grid_.segments, 1})
         .uses(masks, read)
         .uses(used, read)
         .uses(counts, read)

@@ -14,10 +14,10 @@
 
 namespace diptych {
 
-// How masks are filled. scatter: threads per light iterate over the cells in its range. gather: threads
-// per tile test the lights that may reach both the tile and a slice. Both use the same test, so the lists
-// are equal.
-enum class ListKernel { scatter, gather };
+// How lights are culled, which fills masks. scatter: threads per light iterate over the cells in its range.
+// gather: threads per tile test the lights that may reach both the tile and a slice. Both use the same test,
+// so the lists are equal.
+enum class LightCullingKernel { scatter, gather };
 
 // Descriptor types of SET_LISTS, indexed by binding.
 std::span<const VkDescriptorType> listBindings();
@@ -49,7 +49,7 @@ class LightLists {
 public:
     struct Choice {
         gpu::uint lists = gpu::LISTS_NONE;  // LISTS_*; LISTS_NONE: buffers to bind, without passes
-        ListKernel kernel = ListKernel::scatter;
+        LightCullingKernel kernel = LightCullingKernel::scatter;
         bool in_front = false;  // tiled lists with blended surfaces: FEATURE_lights_in_front
     };
 
@@ -86,15 +86,15 @@ public:
     const GpuBuffer& heads() const { return heads_; }
     const GpuBuffer& indices() const { return indices_; }
     const GpuBuffer& masks() const { return masks_; }
-    const GpuBuffer& candidates() const { return candidates_; }  // with ListKernel::gather
+    const GpuBuffer& candidates() const { return candidates_; }  // with LightCullingKernel::gather
 
 private:
     struct Step;
-    void addMasks(const Step& step, ImageRef depth) const;
-    void addLists(const Step& step) const;
+    void addLightCulling(const Step& step, ImageRef depth) const;
+    void addListBuilding(const Step& step) const;
     void makeLists();
     // Buffers of the passes that fill the lists, and their descriptor set.
-    void makeInputsOfPasses();
+    void makePassInputs();
     // 32-bit words that the last frame's passes wrote.
     std::vector<gpu::uint> wordsOf(const GpuBuffer& from, std::uint64_t first, std::size_t count) const;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One listed point light at one pixel, optimized for the CPU. Follows shaders/lib/shading/brdf.glsl and
-// lights.glsl function by function. Shades 8 pixels per vector; broadcasts lights from memory and keeps
-// sums in registers. A test compares its image with the shaders'.
+// punctual_lights.glsl function by function. Shades 8 pixels per vector; broadcasts lights from memory and
+// keeps sums in registers. A test compares its image with the shaders'.
 #include "tests/bench/kernel_avx2.h"
 
 #if defined(__AVX2__) && defined(__FMA__)

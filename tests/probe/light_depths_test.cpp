@@ -243,8 +243,9 @@ TileBounds tileDepthBounds(const View& view, const DepthSamples& stored, gpu::ui
     set.image(0, gpu::BINDING_LISTS_DEPTH, image.view, sampler, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
     Pipelines kernels(probeDevice(), VK_NULL_HANDLE);
     const auto samples_of = static_cast<gpu::uint>(stored.samples);
-    const Pipeline kernel = kernels.compute(
-        Shader::light_depths_comp, Variant().set(gpu::FEATURE_samples, samples_of), frame.lists().pipeline());
+    const Pipeline kernel =
+        kernels.compute(Shader::cull_lights_depth_bounds_comp,
+                        Variant().set(gpu::FEATURE_samples, samples_of), frame.lists().pipeline());
     probeDevice().submit([&](VkCommandBuffer commands) {
         samples.record(commands, image);
         const std::array sets{frame.set(), set[0]};

@@ -28,7 +28,7 @@ struct Masks {
     gpu::uint word(std::size_t w, std::size_t list) const { return words[w * grid.list_stride + list]; }
 };
 
-Masks masksOf(const View& view, const std::vector<Light>& lights, gpu::uint kind, ListKernel kernel) {
+Masks masksOf(const View& view, const std::vector<Light>& lights, gpu::uint kind, LightCullingKernel kernel) {
     const GpuLights gpu = gpuLights(lights, view.eye());
     KernelFrame frame(probeDevice(), view);
     LightLists made(probeDevice(), frame.uploader(), frame.lists(), {kind, kernel}, view, gpu);
@@ -54,7 +54,7 @@ Masks masksOf(const View& view, const std::vector<Light>& lights, gpu::uint kind
     made.addPasses(passes, pipelines, variant, frame.set(), depth);
     passes.run();
     Masks masks{made.grid(), contents<gpu::uint>(probeDevice(), made.masks()), {}};
-    if (kernel == ListKernel::gather)
+    if (kernel == LightCullingKernel::gather)
         masks.candidates = contents<gpu::uint>(probeDevice(), made.candidates());
     return masks;
 }
@@ -82,8 +82,8 @@ Pairs compared(const Masks& scatter, const Masks& gather) {
 }
 
 Pairs pairsOf(const View& view, const std::vector<Light>& lights, gpu::uint kind) {
-    return compared(masksOf(view, lights, kind, ListKernel::scatter),
-                    masksOf(view, lights, kind, ListKernel::gather));
+    return compared(masksOf(view, lights, kind, LightCullingKernel::scatter),
+                    masksOf(view, lights, kind, LightCullingKernel::gather));
 }
 
 void print(const std::string& what, const Pairs& pairs) {
@@ -174,9 +174,10 @@ TEST(LightKernels, GatherTestsFewLightsInFewCells) {
 TEST(LightKernels, ASmallerLightIsFound) {
     const View view = viewOf(213, 119, false);
     std::vector<Light> lights = lightsAround(200, 1, 95);
-    const Masks whole = masksOf(view, lights, gpu::LISTS_TILED, ListKernel::scatter);
+    const Masks whole = masksOf(view, lights, gpu::LISTS_TILED, LightCullingKernel::scatter);
     for (Light& light : lights) light.range *= 0.99f;
-    EXPECT_GT(compared(whole, masksOf(view, lights, gpu::LISTS_TILED, ListKernel::gather)).different, 0u);
+    EXPECT_GT(compared(whole, masksOf(view, lights, gpu::LISTS_TILED, LightCullingKernel::gather)).different,
+              0u);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ struct Lists {
 };
 
 // `nearer`: factor on the image's depths before rendering. `in_front`: the scene has blended surfaces.
-Lists listsOf(const View& view, const Depths& depths, const GpuLights& lights, ListKernel kernel,
+Lists listsOf(const View& view, const Depths& depths, const GpuLights& lights, LightCullingKernel kernel,
               double nearer = 1, bool in_front = false) {
     KernelFrame frame(probeDevice(), view);
     LightLists made(probeDevice(), frame.uploader(), frame.lists(), {gpu::LISTS_TILED, kernel, in_front},
@@ -174,7 +174,7 @@ struct Count {
 
 // Compares one tile's list with all lights. A light is falsely kept if even a sphere of twice its size
 // would not reach the tile. A spot's sphere and its cone may each reach a tile that their intersection
-// does not (light_cull.glsl).
+// does not (light_overlap.glsl).
 void hold(Count& count, const std::vector<gpu::uint>& list, const std::vector<Light>& lights,
           const std::vector<gpu::LightBound>& bounds, const Cell& cell) {
     const std::set<gpu::uint> listed(list.begin(), list.end());
@@ -218,9 +218,9 @@ Held held(double nearer = 1) {
         const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
         EXPECT_EQ(gpu.local(), lights.size());
         const std::vector<gpu::LightBound> bounds = lightBounds(gpu, view);
-        const Lists lists = listsOf(view, depths, gpu, ListKernel::scatter, nearer);
+        const Lists lists = listsOf(view, depths, gpu, LightCullingKernel::scatter, nearer);
         if (nearer == 1) {
-            EXPECT_EQ(lists.lists, listsOf(view, depths, gpu, ListKernel::gather).lists);
+            EXPECT_EQ(lists.lists, listsOf(view, depths, gpu, LightCullingKernel::gather).lists);
         }
         EXPECT_EQ(lists.grid.tiles, gpu::uvec2(7, 4));
         for (int y = 0; y < 4; ++y)
@@ -261,9 +261,9 @@ TEST(TileLists, OfWhatIsBlendedReachFromTheViewer) {
     const std::vector<Light> lights = randomLights(34);
     const GpuLights gpu = gpuLights(lights, glm::dvec3(0));
     const std::vector<gpu::LightBound> bounds = lightBounds(gpu, view);
-    const Lists solid = listsOf(view, depths, gpu, ListKernel::scatter);
+    const Lists solid = listsOf(view, depths, gpu, LightCullingKernel::scatter);
     const std::size_t tiles = solid.lists.size();
-    for (const ListKernel kernel : {ListKernel::scatter, ListKernel::gather}) {
+    for (const LightCullingKernel kernel : {LightCullingKernel::scatter, LightCullingKernel::gather}) {
         const Lists both = listsOf(view, depths, gpu, kernel, 1, true);
         ASSERT_EQ(both.lists.size(), 2 * tiles);
         Count count;

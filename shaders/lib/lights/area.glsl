@@ -7,7 +7,7 @@
 
 #include "shaders/lib/lights/area_point.glsl"
 #include "shaders/lib/shading/brdf.glsl"
-#include "shaders/lib/lights/lights.glsl"
+#include "shaders/lib/lights/punctual_lights.glsl"
 #include "shaders/lib/lights/ltc_tube.glsl"
 #include "shaders/lib/shading/sheen.glsl"
 

@@ -5,7 +5,7 @@
 #define OBJECT_LIGHTS_GLSL
 
 #include "shaders/lib/lights/light_lists.glsl"
-#include "shaders/lib/lights/lights.glsl"
+#include "shaders/lib/lights/punctual_lights.glsl"
 
 Incident weighted(Incident light, const float weight) {
     light.irradiance *= weight;

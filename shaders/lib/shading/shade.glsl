@@ -15,7 +15,7 @@
 #include "shaders/lib/lights/partial_sums.glsl"
 #include "shaders/lib/lights/light_lists.glsl"
 #include "shaders/lib/environment/haze.glsl"
-#include "shaders/lib/lights/lights.glsl"
+#include "shaders/lib/lights/punctual_lights.glsl"
 #include "shaders/lib/shadows/local_shadow.glsl"
 #include "shaders/lib/math/loop.glsl"
 #include "shaders/lib/lights/object_lights.glsl"

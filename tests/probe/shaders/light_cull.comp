@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/lights/light_cull.glsl"
+#include "shaders/lib/lights/light_overlap.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // bound (12), a cell's sides x, y and depths (6) -> whether the bounding sphere reaches the cell, whether
@@ -18,7 +18,7 @@ void main() {
     bound.sin_cone = IN(18, 11);
     CellBounds cell =
         CellBounds(vec2(IN(18, 12), IN(18, 13)), vec2(IN(18, 14), IN(18, 15)), vec2(IN(18, 16), IN(18, 17)));
-    OUT(3, 0) = sphereReaches(bound.centre, bound.radius, cell) ? 1.0 : 0.0;
-    OUT(3, 1) = coneReaches(bound, cell) ? 1.0 : 0.0;
+    OUT(3, 0) = sphereOverlaps(bound.centre, bound.radius, cell) ? 1.0 : 0.0;
+    OUT(3, 1) = coneOverlaps(bound, cell) ? 1.0 : 0.0;
     OUT(3, 2) = squaredDistanceToRow(bound.centre, cell) <= bound.radius * bound.radius ? 1.0 : 0.0;
 }

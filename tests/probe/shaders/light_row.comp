@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/lights/light_cull.glsl"
+#include "shaders/lib/lights/light_overlap.glsl"
 #include "shaders/lib/lights/light_rect.glsl"
 #include "tests/probe/shaders/probe.glsl"
 

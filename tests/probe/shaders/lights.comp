@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/lib/lights/lights.glsl"
+#include "shaders/lib/lights/punctual_lights.glsl"
 #include "tests/probe/shaders/probe.glsl"
 
 // position of the light from the surface, 1 / range^2, direction, cone scale, cone offset -> irradiance,

@@ -67,32 +67,33 @@ std::vector<Without> withouts() {
           "forward_shade.frag"}},
         {"lights_in_front",
          gpu::FEATURE_lights_in_front,
-         {{"shaders/pass/light_depths.comp", "    if (on(feature_lights_in_front)) far = min(far, z);\n"},
-          {"shaders/pass/light_depths.comp",
+         {{"shaders/pass/cull_lights_depth_bounds.comp",
+           "    if (on(feature_lights_in_front)) far = min(far, z);\n"},
+          {"shaders/pass/cull_lights_depth_bounds.comp",
            "        if (on(feature_lights_in_front)) farthest = floatBitsToUint(NO_DEPTH);\n"},
-          {"shaders/pass/light_depths.comp",
+          {"shaders/pass/cull_lights_depth_bounds.comp",
            "    if (on(feature_lights_in_front)) {\n"
            "        far = subgroupMin(far);\n"
            "        if (subgroupElect()) atomicMin(farthest, floatBitsToUint(far));\n"
            "    }\n"},
-          {"shaders/pass/light_depths.comp",
+          {"shaders/pass/cull_lights_depth_bounds.comp",
            "        if (on(feature_lights_in_front))\n"
            "            tile_depths[listInFront(tile)] = vec2(0.0, farthest > 0u ? largest : "
            "MAX_BOUND_RADIUS);\n"},
-          {"shaders/pass/light_scatter.comp",
+          {"shaders/pass/cull_lights_scatter.comp",
            "            if (on(feature_lights_in_front)) {\n"
-           "                if (!reachesInFront(bound, uvec2(column, row))) continue;\n"
+           "                if (!overlapsInFront(bound, uvec2(column, row))) continue;\n"
            "                atomicOr(masks[maskWord(word, listInFront(list))], bit);\n"
            "            }\n"},
-          {"shaders/pass/light_gather.comp",
+          {"shaders/pass/cull_lights_gather.comp",
            "            if (on(feature_lights_in_front)) {\n"
-           "                within = within && reachesInFront(bound, tile);\n"
+           "                within = within && overlapsInFront(bound, tile);\n"
            "                if (within) in_front |= bit;\n"
            "            }\n"},
-          {"shaders/pass/light_gather.comp",
+          {"shaders/pass/cull_lights_gather.comp",
            "                if (on(feature_lights_in_front) && in_front != 0u)\n"
-           "                    masks[maskWord(word, listInFront(number))] = in_front;\n"}},
-         {"light_depths.comp", "light_gather.comp", "light_scatter.comp"}},
+           "                    masks[maskWord(word, listInFront(tile_index))] = in_front;\n"}},
+         {"cull_lights_depth_bounds.comp", "cull_lights_gather.comp", "cull_lights_scatter.comp"}},
     };
 }
 

@@ -4,12 +4,12 @@
 
 // LIGHT_THREADS threads per light share the slices and rows of tiles that the light's bounding sphere may
 // reach. They mark the light as a candidate of each slice and of each tile.
-#include "shaders/lib/lights/light_walk.glsl"
+#include "shaders/lib/lights/light_culling.glsl"
 
 layout(local_size_x = 64) in;
 
 void main() {
-    uint light = threadNumber() / LIGHT_THREADS, thread = threadNumber() % LIGHT_THREADS;
+    uint light = threadIndex() / LIGHT_THREADS, thread = threadIndex() % LIGHT_THREADS;
     if (light >= grid.local_lights) return;
     LightBound bound = boundOf(light);
     uint word = light / 32u, bit = 1u << (light % 32u);

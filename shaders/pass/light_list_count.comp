@@ -4,7 +4,7 @@
 
 // One thread per four lists, whose masks share a texel. Counts the lights in each segment, marks the words
 // that are not empty, and counts the list entries.
-#include "shaders/lib/lights/light_kernel.glsl"
+#include "shaders/lib/lights/light_list_buffers.glsl"
 
 layout(local_size_x = 64) in;
 

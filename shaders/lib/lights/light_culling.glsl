@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The cells that a light is tested against: the slices and the rectangle of tiles that its bounding sphere
-// may overlap, without the columns of a row that it cannot reach. Both light culling shaders test these
+// may overlap, without the columns of a row that it cannot overlap. Both light culling shaders test these
 // cells only, so they mark the same cells, including false positives.
-#ifndef LIGHT_WALK_GLSL
-#define LIGHT_WALK_GLSL
+#ifndef LIGHT_CULLING_GLSL
+#define LIGHT_CULLING_GLSL
 
-#include "shaders/lib/lights/light_kernel.glsl"
+#include "shaders/lib/lights/light_list_buffers.glsl"
 #include "shaders/lib/lights/light_rect.glsl"
 
 const vec2 ALL_DEPTHS = vec2(0.0, MAX_BOUND_RADIUS);
@@ -37,16 +37,16 @@ uvec2 columnsOfLight(const LightBound bound, const uint row, const vec2 slab) {
     return columnsOfSphere(bound.centre, bound.radius, slab, squared, tileSize(), grid.tiles.x);
 }
 
-// Whether the light reaches the cell of a slice and a tile; the tile is in one of these columns.
-bool reachesCell(const LightBound bound, const uvec2 tile, const uint slice) {
-    return reaches(bound, cellBounds(tile, cellDepths(tile.y * grid.tiles.x + tile.x, slice)));
+// Whether the light overlaps the cell of a slice and a tile; the tile is in one of these columns.
+bool overlapsCell(const LightBound bound, const uvec2 tile, const uint slice) {
+    return overlaps(bound, cellBounds(tile, cellDepths(tile.y * grid.tiles.x + tile.x, slice)));
 }
 
 // With lights_in_front a tile has two lists. A light is tested for the list of blended surfaces first. If
 // it passes, it is tested for the list of opaque surfaces, whose depths begin at the nearest (Harada,
 // McKee and Yang 2013, "Forward+: A Step Toward Film-Style Shading in Real Time", GPU Pro 4).
-bool reachesInFront(const LightBound bound, const uvec2 tile) {
-    return reaches(bound, cellBounds(tile, tile_depths[listInFront(tile.y * grid.tiles.x + tile.x)]));
+bool overlapsInFront(const LightBound bound, const uvec2 tile) {
+    return overlaps(bound, cellBounds(tile, tile_depths[listInFront(tile.y * grid.tiles.x + tile.x)]));
 }
 
 #endif

@@ -5,7 +5,7 @@
 // One workgroup: an exclusive prefix sum turns the number of entries of each group of four lists into its
 // begin, after the list of all lights. Each thread sums a range of groups, then the workgroup sums the
 // ranges (Hillis and Steele 1986, "Data parallel algorithms").
-#include "shaders/lib/lights/light_kernel.glsl"
+#include "shaders/lib/lights/light_list_buffers.glsl"
 
 layout(local_size_x = LIST_GROUP) in;
 

@@ -4,7 +4,7 @@
 
 // One thread per list and segment: writes the light indices in order, each light type in new entries. The
 // first segment's thread also writes the list's head and pads its entries.
-#include "shaders/lib/lights/light_kernel.glsl"
+#include "shaders/lib/lights/light_list_buffers.glsl"
 
 layout(local_size_x = 64) in;
 

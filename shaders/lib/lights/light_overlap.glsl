@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whether a light can affect a cell of the light grid. Conservative: no false negatives, few false
 // positives. View axes: x right, y down, z forward.
-#ifndef LIGHT_CULL_GLSL
-#define LIGHT_CULL_GLSL
+#ifndef LIGHT_OVERLAP_GLSL
+#define LIGHT_OVERLAP_GLSL
 
 #include "shaders/lib/lights/light_grid.glsl"
 
@@ -41,13 +41,13 @@ float squaredDistanceToRow(const vec3 c, const CellBounds cell) {
     return squaredDistance(c, cell, vec2(0.0, 1.0));
 }
 
-bool sphereReaches(const vec3 centre, const float radius, const CellBounds cell) {
+bool sphereOverlaps(const vec3 centre, const float radius, const CellBounds cell) {
     return cell.depth.x <= cell.depth.y && squaredDistance(centre, cell, vec2(1.0)) <= radius * radius;
 }
 
 // Cone against the bounding sphere of a cell (Wronski 2017, "Cull that cone!"). The sphere is outside if
 // its distance to the cone's side exceeds its radius.
-bool coneReachesSphere(const LightBound light, const vec3 centre, const float radius) {
+bool coneOverlapsSphere(const LightBound light, const vec3 centre, const float radius) {
     vec3 v = centre - light.apex;
     float along = dot(v, light.axis);
     float across = sqrt(max(dot(v, v) - along * along, 0.0));
@@ -56,7 +56,7 @@ bool coneReachesSphere(const LightBound light, const vec3 centre, const float ra
 
 // Whether the infinite cone has a point on the inner side of a plane. `normal` points outwards. Such a
 // point is the apex, or lies along a direction of the cone that leads inwards.
-bool coneReachesPlane(const LightBound light, const vec3 point, const vec3 normal) {
+bool coneOverlapsHalfSpace(const LightBound light, const vec3 point, const vec3 normal) {
     float outside = dot(light.apex - point, normal);
     // The largest cosine between -normal and a direction of the cone.
     float c = -dot(light.axis, normal), s = sqrt(max(1.0 - c * c, 0.0));
@@ -64,7 +64,7 @@ bool coneReachesPlane(const LightBound light, const vec3 point, const vec3 norma
     return outside <= 0.0 || inward > -1e-6;
 }
 
-bool coneReaches(const LightBound light, const CellBounds cell) {
+bool coneOverlaps(const LightBound light, const CellBounds cell) {
     if (light.cos_cone <= -1.0) return true;
     // Close to the light float32 cannot resolve directions; the slack of the bounds covers this rounding.
     float far = min(cell.depth.y, light.centre.z + light.radius),
@@ -75,14 +75,14 @@ bool coneReaches(const LightBound light, const CellBounds cell) {
     vec3 centre = 0.5 * (low + high);
     float radius = lengthOf(high - centre);
     float slack = 4e-6 * (lengthOf(centre) + lengthOf(light.apex)) + 1e-5 * radius;
-    if (!coneReachesSphere(light, centre, radius + slack)) return false;
-    return coneReachesPlane(light, vec3(0.0, 0.0, near - slack), vec3(0.0, 0.0, -1.0)) &&
-           coneReachesPlane(light, vec3(0.0, 0.0, far + slack), vec3(0.0, 0.0, 1.0));
+    if (!coneOverlapsSphere(light, centre, radius + slack)) return false;
+    return coneOverlapsHalfSpace(light, vec3(0.0, 0.0, near - slack), vec3(0.0, 0.0, -1.0)) &&
+           coneOverlapsHalfSpace(light, vec3(0.0, 0.0, far + slack), vec3(0.0, 0.0, 1.0));
 }
 
-bool reaches(const LightBound light, const CellBounds cell) {
-    return sphereReaches(light.centre, light.radius, cell) &&
-           (!on(feature_spot_lights) || coneReaches(light, cell));
+bool overlaps(const LightBound light, const CellBounds cell) {
+    return sphereOverlaps(light.centre, light.radius, cell) &&
+           (!on(feature_spot_lights) || coneOverlaps(light, cell));
 }
 
 #endif

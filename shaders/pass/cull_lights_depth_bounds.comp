@@ -6,7 +6,7 @@
 // Smallest and largest view depth in each tile, over all samples of its pixels; the smallest is the larger
 // one in a tile without geometry. With lights_in_front also the range of blended surfaces: from the viewer
 // on, and unbounded if a pixel shows the background. One workgroup per tile, one thread per four pixels.
-#include "shaders/lib/lights/light_kernel.glsl"
+#include "shaders/lib/lights/light_list_buffers.glsl"
 #include "shaders/lib/geometry/position.glsl"
 #include "shaders/lib/geometry/reversed_depth.glsl"
 #include "shaders/lib/samples/samples.glsl"

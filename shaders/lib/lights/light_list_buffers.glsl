@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Buffers and helpers of the compute shaders that build light lists.
-#ifndef LIGHT_KERNEL_GLSL
-#define LIGHT_KERNEL_GLSL
+#ifndef LIGHT_LIST_BUFFERS_GLSL
+#define LIGHT_LIST_BUFFERS_GLSL
 
 #include "shaders/lib/lights/addressed_texels.glsl"
-#include "shaders/lib/lights/light_cull.glsl"
+#include "shaders/lib/lights/light_overlap.glsl"
 
 layout(set = SET_LISTS, binding = BINDING_BOUNDS) uniform samplerBuffer bound_texels;
 layout(set = SET_LISTS, binding = BINDING_MASKS, scalar) buffer Masks { uint masks[]; };
@@ -71,7 +71,7 @@ uint sliceWord(const uint word, const uint slice) {
 }
 
 // Linear thread index in a dispatch of rows of workgroups.
-uint threadNumber() {
+uint threadIndex() {
     return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
 }
 

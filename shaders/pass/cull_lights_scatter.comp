@@ -3,13 +3,13 @@
 #extension GL_GOOGLE_include_directive : require
 
 // LIGHT_THREADS threads per light share the rows of tiles that its bounding sphere covers in each slice,
-// and mark the tiles of a row that the light reaches.
-#include "shaders/lib/lights/light_walk.glsl"
+// and mark the tiles of a row that the light overlaps.
+#include "shaders/lib/lights/light_culling.glsl"
 
 layout(local_size_x = 64) in;
 
 void main() {
-    uint light = threadNumber() / LIGHT_THREADS, thread = threadNumber() % LIGHT_THREADS;
+    uint light = threadIndex() / LIGHT_THREADS, thread = threadIndex() % LIGHT_THREADS;
     if (light >= grid.local_lights) return;
     LightBound bound = boundOf(light);
     uvec2 slices = slicesOfLight(bound);
@@ -23,10 +23,10 @@ void main() {
         for (uint column = max(columns.x, rect.x); column < end; ++column) {
             uint list = (slice * grid.tiles.y + row) * grid.tiles.x + column;
             if (on(feature_lights_in_front)) {
-                if (!reachesInFront(bound, uvec2(column, row))) continue;
+                if (!overlapsInFront(bound, uvec2(column, row))) continue;
                 atomicOr(masks[maskWord(word, listInFront(list))], bit);
             }
-            if (reachesCell(bound, uvec2(column, row), slice)) atomicOr(masks[maskWord(word, list)], bit);
+            if (overlapsCell(bound, uvec2(column, row), slice)) atomicOr(masks[maskWord(word, list)], bit);
         }
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KHR_lights_punctual.
-#ifndef LIGHTS_GLSL
-#define LIGHTS_GLSL
+#ifndef PUNCTUAL_LIGHTS_GLSL
+#define PUNCTUAL_LIGHTS_GLSL
 
 #include "shaders/lib/contract.glsl"
 #include "shaders/lib/lights/incident.glsl"
