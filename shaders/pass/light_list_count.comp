@@ -20,7 +20,7 @@ struct FourCounts {
 };
 
 // Entries of four lists; 0 beyond the last list.
-uvec4 packetsOfFour(const FourCounts sum, const uint four) {
+uvec4 entriesOfFour(const FourCounts sum, const uint four) {
     uvec4 result = uvec4(0u);
     for (uint i = 0u; i < 4u; ++i) {
         uint end = headOf(LightListCount(sum.all[i], sum.points[i], sum.points_and_spots[i], 0u)).end;
@@ -60,9 +60,9 @@ void main() {
             before = sum;
         }
     }
-    uvec4 packets = packetsOfFour(sum, four);
-    uvec4 begin = uvec4(0u, packets.x, packets.x + packets.y, packets.x + packets.y + packets.z);
+    uvec4 entries = entriesOfFour(sum, four);
+    uvec4 begin = uvec4(0u, entries.x, entries.x + entries.y, entries.x + entries.y + entries.z);
     for (uint i = 0u; i < 4u; ++i)
         if (four * 4u + i < grid.lists) counts[(four * 4u + i) * grid.segments].begin = begin[i];
-    four_begins[four] = begin.w + packets.w;
+    four_begins[four] = begin.w + entries.w;
 }

@@ -27,8 +27,8 @@ void main() {
     }
     uint begin = grid.all_end + sums[thread] - sum;
     for (uint i = first; i < end; ++i) {
-        uint packets = four_begins[i];
+        uint entries = four_begins[i];
         four_begins[i] = begin;
-        begin += packets;
+        begin += entries;
     }
 }

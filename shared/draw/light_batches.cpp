@@ -71,8 +71,8 @@ gpu::uint entriesPerDraw(const DeviceProfile& profile, const GpuLights& lights, 
     const gpu::uint reflectors = 1 + ((layers & gpu::LAYER_CLEARCOAT) != 0 ? 1 : 0) +
                                  ((layers & gpu::LAYER_DIFFUSE_TRANSMISSION) != 0 ? 1 : 0),
                     over_reflectors = reflectors > 1 ? reflectors : 0,
-                    over_packet = list_width > 1 ? list_width : 0;
-    gpu::uint max = 1 + over_packet + list_width * over_reflectors;
+                    over_entry = list_width > 1 ? list_width : 0;
+    gpu::uint max = 1 + over_entry + list_width * over_reflectors;
     // Both form factors of a reflector, of a tube each with two rims of up to two arcs.
     constexpr gpu::uint factors = 2 * (1 + 2 * (1 + 2));
     if (lights.area() > 0) max = std::max(max, list_width * (1 + over_reflectors + reflectors * factors));

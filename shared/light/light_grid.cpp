@@ -248,10 +248,10 @@ gpu::LightGrid makeLightGrid(const GridLists& of, const View& view, const GpuLig
     // An entry of four lights costs as much as three entries of one, so wide entries suit long lists.
     grid.width = pairs > 8 * std::uint64_t{grid.lists} ? 4 : 1;
     grid.null_light = static_cast<gpu::uint>(lights.lights.size()) - 1;
-    const auto packets = [&](gpu::uint ofLights) { return (ofLights + grid.width - 1) / grid.width; };
-    grid.all_point_end = packets(grid.point_end);
-    grid.all_spot_end = grid.all_point_end + packets(grid.spot_end - grid.point_end);
-    grid.all_end = grid.all_spot_end + packets(grid.local_lights - grid.spot_end);
+    const auto entries = [&](gpu::uint ofLights) { return (ofLights + grid.width - 1) / grid.width; };
+    grid.all_point_end = entries(grid.point_end);
+    grid.all_spot_end = grid.all_point_end + entries(grid.spot_end - grid.point_end);
+    grid.all_end = grid.all_spot_end + entries(grid.local_lights - grid.spot_end);
     const std::uint64_t kinds =
         (grid.point_end > 0) + (grid.spot_end > grid.point_end) + (grid.local_lights > grid.spot_end);
     // The last entry of each light type may be partly filled.

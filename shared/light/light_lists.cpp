@@ -38,9 +38,9 @@ glm::uvec3 inRows(std::uint64_t count, gpu::uint depth = 1) {
 // List of all local lights; each light type starts a new entry.
 std::vector<gpu::uint> listOfAll(const gpu::LightGrid& grid) {
     std::vector<gpu::uint> all;
-    const auto add = [&](gpu::uint first, gpu::uint end, gpu::uint packetsEnd) {
+    const auto add = [&](gpu::uint first, gpu::uint end, gpu::uint endEntry) {
         for (gpu::uint i = first; i < end; ++i) all.push_back(grid.first_local + i);
-        all.resize(std::size_t{packetsEnd} * grid.width, grid.null_light);
+        all.resize(std::size_t{endEntry} * grid.width, grid.null_light);
     };
     add(0, grid.point_end, grid.all_point_end);
     add(grid.point_end, grid.spot_end, grid.all_spot_end);

@@ -19,9 +19,9 @@ layout(set = SET_LISTS, binding = BINDING_HEADS, scalar) writeonly buffer Heads 
 layout(set = SET_LISTS, binding = BINDING_INDICES, scalar) writeonly buffer Indices { uint indices[]; };
 layout(set = SET_LISTS, binding = BINDING_LISTED, scalar) writeonly buffer Listed { uint listed[]; };
 
-// Packets (list entries of grid.width lights) for `lights` lights; at least one if the scene has any of
+// List entries, of grid.width lights, for `lights` lights; at least one if the scene has any of
 // their type.
-uint packetsOf(const uint lights, const bool any) {
+uint entriesOf(const uint lights, const bool any) {
     return max((lights + grid.width - 1u) / grid.width, any ? 1u : 0u);
 }
 
@@ -41,11 +41,11 @@ LightListCount countOf(const uint list) {
 LightListHead headOf(const LightListCount count) {
     LightListHead head;
     head.begin = count.begin;
-    head.point_end = head.begin + packetsOf(count.points, grid.point_end > 0u);
+    head.point_end = head.begin + entriesOf(count.points, grid.point_end > 0u);
     head.spot_end =
-        head.point_end + packetsOf(count.points_and_spots - count.points, grid.spot_end > grid.point_end);
+        head.point_end + entriesOf(count.points_and_spots - count.points, grid.spot_end > grid.point_end);
     head.end =
-        head.spot_end + packetsOf(count.all - count.points_and_spots, grid.local_lights > grid.spot_end);
+        head.spot_end + entriesOf(count.all - count.points_and_spots, grid.local_lights > grid.spot_end);
     return head;
 }
 

@@ -39,7 +39,7 @@ uvec4 headTexel(const uint i) {
     if (on(feature_addressed_lights)) return WordTexels(grid_block.heads).at[i];
     return texelFetch(list_heads, int(i));
 }
-uvec4 packetTexel(const uint i) {
+uvec4 entryTexel(const uint i) {
     if (on(feature_addressed_lights)) {
         if (feature_list_width == 1u) return uvec4(SingleWords(grid_block.indices).at[i], 0u, 0u, 1u);
         return WordTexels(grid_block.indices).at[i];
@@ -66,12 +66,12 @@ AreaLight areaLightAt(const uint area) {
     return AREA_LIGHT_OF_TEXELS(a, b, c);
 }
 
-// A pixel's light list as packets (list entries) of feature_list_width lights, one or four. Without lists
-// (LISTS_NONE) a packet is one light and the list contains all local lights. With object_lights it is the
-// draw's own list.
+// A pixel's light list as entries of feature_list_width lights, one or four. Without lists (LISTS_NONE)
+// an entry is one light and the list contains all local lights. With object_lights it is the draw's own
+// list.
 struct PixelLights {
     uint list;
-    LightListHead packets;
+    LightListHead entries;
 };
 
 // The list of a pixel at a view depth, m. Under MSAA, a triangle that is hidden in some samples may be
@@ -105,80 +105,81 @@ PixelLights lightsAt(const vec2 pixel, const float z) { return lightsAt(pixel, z
 
 // Number of lights evaluated at the pixel, including directional ones.
 uint lightCount(const PixelLights lights) {
-    if (on(feature_object_lights)) return lights.packets.end - object_lights[constants.draw].begin;
-    uint local = feature_light_lists != LISTS_NONE ? listed[lights.list] : lights.packets.end;
+    if (on(feature_object_lights)) return lights.entries.end - object_lights[constants.draw].begin;
+    uint local = feature_light_lists != LISTS_NONE ? listed[lights.list] : lights.entries.end;
     return view.directional_light_count + local;
 }
 // Whether the pixel's list overflowed.
 bool listOverflowed(const PixelLights lights) {
     bool tooFar = feature_light_lists == LISTS_TILED && feature_samples > 1 &&
                   lights.list == grid.lists;
-    return feature_light_lists != LISTS_NONE && lights.packets.begin == 0u && lights.packets.end > 0u &&
+    return feature_light_lists != LISTS_NONE && lights.entries.begin == 0u && lights.entries.end > 0u &&
            !tooFar;
 }
 
-// Packets of [begin, end) that this draw evaluates: all, or those of its light batch.
-uvec2 walked(const PixelLights lights, const uint begin, const uint end) {
+// Entries of [begin, end) that this draw evaluates: all, or those of its light batch.
+uvec2 batchEntries(const PixelLights lights, const uint begin, const uint end) {
     if (feature_light_batch == BATCH_WHOLE) return uvec2(begin, end);
-    uint first = lights.packets.begin;
+    uint first = lights.entries.begin;
     return clamp(uvec2(begin, end), first + constants.light_first, first + constants.light_end);
 }
 
-// Weight of the light that lightsOfPacket() returned last; 1 without object_lights.
-float packet_fraction = 1.0;
-Light withFraction(Light light) {
-    if (on(feature_object_lights)) light.intensity *= packet_fraction;
+// Weight of the light that lightsOfEntry() returned last; 1 without object_lights.
+float entry_weight = 1.0;
+Light withEntryWeight(Light light) {
+    if (on(feature_object_lights)) light.intensity *= entry_weight;
     return light;
 }
 
-// Light indices of a packet; without lists only the first component is used.
-uvec4 lightsOfPacket(const uint packet) {
+// Light indices of an entry; without lists only the first component is used.
+uvec4 lightsOfEntry(const uint entry) {
     if (on(feature_object_lights)) {
-        ObjectLight entry = object_list[packet];
-        packet_fraction = entry.weight;
-        return uvec4(entry.light);
+        ObjectLight object_light = object_list[entry];
+        entry_weight = object_light.weight;
+        return uvec4(object_light.light);
     }
-    if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + packet);
-    return packetTexel(packet);
+    if (feature_light_lists == LISTS_NONE) return uvec4(view.directional_light_count + entry);
+    return entryTexel(entry);
 }
 
 // Range [x, y) of directional lights for directionalAt(); constant over a draw.
-uvec2 directionalPackets() {
+uvec2 directionalEntries() {
     if (!on(feature_object_lights)) return uvec2(0u, view.directional_light_count);
     ObjectLights object = object_lights[constants.draw];
     return uvec2(object.begin, object.local_begin);
 }
 // Index among the directional lights.
-uint directionalOf(const uint packet) {
-    return on(feature_object_lights) ? lightsOfPacket(packet).x : packet;
+uint directionalOf(const uint entry) {
+    return on(feature_object_lights) ? lightsOfEntry(entry).x : entry;
 }
-Light directionalAt(const uint packet) {
-    return withFraction(lightAt(directionalOf(packet)));
+Light directionalAt(const uint entry) {
+    return withEntryWeight(lightAt(directionalOf(entry)));
 }
 
-// Iterates over a list's area lights one by one, because evaluating the padding of the last packet would
+// Iterates over a list's area lights one by one, because evaluating the padding of the last entry would
 // be too expensive.
-struct AreaWalk {
-    uint place, end;  // positions in the list: packets times list_width
-    uint light;       // index in the light buffer
-    uint number;      // index among the area lights; areaCount() for the null light
+struct AreaLightIterator {
+    uint position, end;  // in the list: entries times list_width
+    uint light;          // index in the light buffer
+    uint area_index;     // index among the area lights; areaCount() for the null light
     bool more;
 };
-void look(inout AreaWalk walk) {
-    uint place = min(walk.place, max(walk.end, 1u) - 1u);
-    walk.light = lightsOfPacket(place / feature_list_width)[place % feature_list_width];
+void load(inout AreaLightIterator iterator) {
+    uint position = min(iterator.position, max(iterator.end, 1u) - 1u);
+    iterator.light = lightsOfEntry(position / feature_list_width)[position % feature_list_width];
     uint first = view.directional_light_count + view.point_light_count + view.spot_light_count;
-    walk.number = walk.light - first;
-    walk.more = walk.place < walk.end && walk.number < areaCount();
+    iterator.area_index = iterator.light - first;
+    iterator.more = iterator.position < iterator.end && iterator.area_index < areaCount();
 }
-AreaWalk areaWalk(const uvec2 packets) {
-    AreaWalk walk = AreaWalk(packets.x * feature_list_width, packets.y * feature_list_width, 0u, 0u, false);
-    look(walk);
-    return walk;
+AreaLightIterator areaLightIterator(const uvec2 entries) {
+    AreaLightIterator iterator =
+        AreaLightIterator(entries.x * feature_list_width, entries.y * feature_list_width, 0u, 0u, false);
+    load(iterator);
+    return iterator;
 }
-void step(inout AreaWalk walk) {
-    ++walk.place;
-    look(walk);
+void advance(inout AreaLightIterator iterator) {
+    ++iterator.position;
+    load(iterator);
 }
 
 #endif

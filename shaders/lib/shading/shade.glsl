@@ -91,11 +91,11 @@ void addIncident(const Shading shading, const Incident light, inout Radiance rad
 }
 
 void addPoint(const Shading shading, const uint i, inout Radiance radiance) {
-    addIncident(shading, fromPointLight(withFraction(lightAt(i)), shading.surface.position), radiance);
+    addIncident(shading, fromPointLight(withEntryWeight(lightAt(i)), shading.surface.position), radiance);
 }
 
 void addSpot(const Shading shading, const uint i, inout Radiance radiance) {
-    addIncident(shading, fromSpotLight(withFraction(lightAt(i)), spotConeAt(i), shading.surface.position),
+    addIncident(shading, fromSpotLight(withEntryWeight(lightAt(i)), spotConeAt(i), shading.surface.position),
                 radiance);
 }
 
@@ -111,62 +111,62 @@ void addCasting(const Shading shading, Incident light, const uint index, const v
 
 void addCastingPoint(const Shading shading, const uint i, const LocalCasters casters,
                      inout Radiance radiance) {
-    Light light = withFraction(lightAt(i));
+    Light light = withEntryWeight(lightAt(i));
     Incident incident = fromPointLight(light, shading.surface.position);
     addCasting(shading, incident, i - view.directional_light_count, light.position, radiance);
 }
 
 void addCastingSpot(const Shading shading, const uint i, const LocalCasters casters,
                     inout Radiance radiance) {
-    Light light = withFraction(lightAt(i));
+    Light light = withEntryWeight(lightAt(i));
     Incident incident = fromSpotLight(light, spotConeAt(i), shading.surface.position);
     addCasting(shading, incident, i - casters.spot_shift, light.position, radiance);
 }
 
-// Adds the shadow-casting lights of one type in packets [x, y): the first ones, with indices below `end`.
-// Leaves the packets that contain others.
-#define ADD_CASTERS(add, packets, end)                       \
-    {                                                       \
-        CasterWalk walk = casterWalk(packets, end);         \
-        while (walk.more) {                                 \
-            add(shading, walk.light, casters, radiance);    \
-            step(walk);                                     \
-            if (!walk.more) break;                          \
-        }                                                   \
-        packets.x = walk.place / feature_list_width;        \
+// Adds the shadow-casting lights of one type in entries [x, y): the first ones, with indices below `end`.
+// Leaves the entries that contain others.
+#define ADD_CASTERS(add, entries, end)                          \
+    {                                                           \
+        CasterIterator iterator = casterIterator(entries, end); \
+        while (iterator.more) {                                 \
+            add(shading, iterator.light, casters, radiance);    \
+            advance(iterator);                                  \
+            if (!iterator.more) break;                          \
+        }                                                       \
+        entries.x = iterator.position / feature_list_width;     \
     }
 
-// Adds the lights of one type in packets [x, y). If this type casts shadows, skips shadow-casting lights:
-// those with indices below `end`. Drivers unroll the loop over a packet, unless layers make its body long.
-#define ADD_PACKETS(add, packets, casting, end)                                                        \
-    {                                                                                                  \
-        uvec2 range = packets;                                                                         \
-        EACH(range) {                                                                                  \
-            uvec4 packet = lightsOfPacket(range.x);                                                    \
-            if (on(feature_local_shadows & casting))                                                   \
-                packet = withoutCasters(packet, end, casters.null_light);                              \
-            uint k = 0u;                                                                               \
-            do {                                                                                       \
-                add(shading, packet[k], radiance);                                                     \
-            } while (++k < feature_list_width);                                                        \
-            NEXT(range);                                                                               \
-        }                                                                                              \
+// Adds the lights of one type in entries [x, y). If this type casts shadows, skips shadow-casting lights:
+// those with indices below `end`. Drivers unroll the loop over an entry, unless layers make its body long.
+#define ADD_ENTRIES(add, entries, casting, end)                                       \
+    {                                                                                 \
+        uvec2 range = entries;                                                        \
+        EACH(range) {                                                                 \
+            uvec4 entry_lights = lightsOfEntry(range.x);                              \
+            if (on(feature_local_shadows & casting))                                  \
+                entry_lights = withoutCasters(entry_lights, end, casters.null_light); \
+            uint k = 0u;                                                              \
+            do {                                                                      \
+                add(shading, entry_lights[k], radiance);                              \
+            } while (++k < feature_list_width);                                       \
+            NEXT(range);                                                              \
+        }                                                                             \
     }
 
 // Continues with the area lights of one kind. One loop per kind, because a loop body costs all the code in
 // it, executed or not.
-#define ADD_AREA(kind, name, cost)                                                            \
-    if (on(feature_area_lights & AREA_##name))                                                \
-        while (walk.more && walk.number < view.area_ends[kind]) {                             \
-            Light light = withFraction(lightAt(walk.light));                                     \
-            AreaLight shape = areaLightAt(walk.number);                                       \
-            uint i = 0u;                                                                      \
-            do {                                                                              \
-                AreaLobes reflected =                                                         \
-                    name##Lobes(viewOf(views, i), light, shape, shading.surface.position);    \
-                addFrom(i, reflected.lobes, reflected.sheen, radiance);                       \
-            } while (++i < reflectorCount());                                                 \
-            step(walk);                                                                       \
+#define ADD_AREA(kind, name, cost)                                                         \
+    if (on(feature_area_lights & AREA_##name))                                             \
+        while (iterator.more && iterator.area_index < view.area_ends[kind]) {              \
+            Light light = withEntryWeight(lightAt(iterator.light));                        \
+            AreaLight shape = areaLightAt(iterator.area_index);                            \
+            uint i = 0u;                                                                   \
+            do {                                                                           \
+                AreaLobes reflected =                                                      \
+                    name##Lobes(viewOf(views, i), light, shape, shading.surface.position); \
+                addFrom(i, reflected.lobes, reflected.sheen, radiance);                    \
+            } while (++i < reflectorCount());                                              \
+            advance(iterator);                                                             \
         }
 
 // `emission`: dimmed by a clear coat.
@@ -244,7 +244,7 @@ void addEnvironment(const Shading shading, inout Radiance radiance) {
 }
 
 void addDirectionalLights(const Shading shading, inout Radiance radiance) {
-    uvec2 range = directionalPackets();
+    uvec2 range = directionalEntries();
     EACH(range) {
         Incident light = fromDirectionalLight(directionalAt(range.x));
         if (on(feature_shadows) && directionalOf(range.x) == castingLight())
@@ -258,16 +258,16 @@ void addPunctualLights(const Shading shading, const PixelLights lights, inout Ra
     LocalCasters casters = LocalCasters(0u, 0u, 0u, 0u);
     if (on(feature_local_shadows)) casters = localCasters();
     if (on(feature_point_lights)) {
-        uvec2 packets = walked(lights, lights.packets.begin, lights.packets.point_end);
+        uvec2 entries = batchEntries(lights, lights.entries.begin, lights.entries.point_end);
         if (on(feature_local_shadows & LOCAL_SHADOWS_POINTS))
-            ADD_CASTERS(addCastingPoint, packets, casters.point_end)
-        ADD_PACKETS(addPoint, packets, LOCAL_SHADOWS_POINTS, casters.point_end)
+            ADD_CASTERS(addCastingPoint, entries, casters.point_end)
+        ADD_ENTRIES(addPoint, entries, LOCAL_SHADOWS_POINTS, casters.point_end)
     }
     if (on(feature_spot_lights)) {
-        uvec2 packets = walked(lights, lights.packets.point_end, lights.packets.spot_end);
+        uvec2 entries = batchEntries(lights, lights.entries.point_end, lights.entries.spot_end);
         if (on(feature_local_shadows & LOCAL_SHADOWS_SPOTS))
-            ADD_CASTERS(addCastingSpot, packets, casters.spot_end)
-        ADD_PACKETS(addSpot, packets, LOCAL_SHADOWS_SPOTS, casters.spot_end)
+            ADD_CASTERS(addCastingSpot, entries, casters.spot_end)
+        ADD_ENTRIES(addSpot, entries, LOCAL_SHADOWS_SPOTS, casters.spot_end)
     }
 }
 
@@ -289,7 +289,8 @@ void addAreaLights(const Shading shading, const PixelLights lights, inout Radian
     if (hasLayer(LAYER_SHEEN)) views.base.woven = true, views.base.sheen = shading.sheen;
     if (hasLayer(LAYER_CLEARCOAT)) views.coat = areaView(shading.coat);
     if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) views.behind = areaView(shading.behind);
-    AreaWalk walk = areaWalk(walked(lights, lights.packets.spot_end, lights.packets.end));
+    AreaLightIterator iterator =
+        areaLightIterator(batchEntries(lights, lights.entries.spot_end, lights.entries.end));
     AREA_KINDS(ADD_AREA)
 }
 

@@ -16,59 +16,59 @@ LocalCasters localCasters() {
     return LOCAL_CASTERS_OF_TEXEL(a);
 }
 
-LocalShadow localShadowAt(const uint place) {
-    int first = int(1u + LOCAL_SHADOW_TEXELS * place);
+LocalShadow localShadowAt(const uint index) {
+    int first = int(1u + LOCAL_SHADOW_TEXELS * index);
     vec4 a = texelFetch(local_shadow_texels, first), b = texelFetch(local_shadow_texels, first + 1),
          c = texelFetch(local_shadow_texels, first + 2);
     return LOCAL_SHADOW_OF_TEXELS(a, b, c);
 }
 
-LocalFace localFaceAt(const uint place, const uint face) {
-    vec4 a = texelFetch(local_shadow_texels, int(1u + LOCAL_SHADOW_TEXELS * place + 3u + face));
+LocalFace localFaceAt(const uint index, const uint face) {
+    vec4 a = texelFetch(local_shadow_texels, int(1u + LOCAL_SHADOW_TEXELS * index + 3u + face));
     return LOCAL_FACE_OF_TEXEL(a);
 }
 
-// Visibility, 0 to 1, of the light at index `place` of LocalShadow[], at `light_position`. 0 if the
+// Visibility, 0 to 1, of the light at index `index` of LocalShadow[], at `light_position`. 0 if the
 // triangle faces away from it.
-float visibilityOf(Surface s, const uint place, const vec3 light_position) {
-    LocalShadow light = localShadowAt(place);
+float visibilityOf(Surface s, const uint index, const vec3 light_position) {
+    LocalShadow light = localShadowAt(index);
     vec3 from_light = s.position - light_position;
     if (hasLayer(LAYER_DIFFUSE_TRANSMISSION)) s = facingLight(s, -from_light);
     vec3 p = inLight(light, from_light);
-    uint number = faceOf(p);
-    LocalFace face = localFaceAt(place, number);
+    uint face_index = faceOf(p);
+    LocalFace face = localFaceAt(index, face_index);
     float rounding = LOCAL_ROUNDING * (lengthOf(from_light) + lengthOf(s.position));
-    vec3 n = onFace(inLight(light, s.geometric_normal), number);
-    Receiver r = localReceiver(onFace(p, number), n, rounding, light, face);
+    vec3 n = onFace(inLight(light, s.geometric_normal), face_index);
+    Receiver r = localReceiver(onFace(p, face_index), n, rounding, light, face);
     float visibility = face.texels > 0.0 ? filtered(local_shadow_map, r, vec2(0.0), 0u) : 1.0;
     return dot(s.geometric_normal, from_light) < 0.0 ? visibility : 0.0;
 }
 
 // Iterates one by one over the shadow-casting lights of a segment of a list: the first ones, with indices
-// below `light_end`. Evaluating a packet's other lights as well would be too expensive.
-struct CasterWalk {
-    uint place, end;  // positions in the list: packets times list_width
+// below `light_end`. Evaluating an entry's other lights as well would be too expensive.
+struct CasterIterator {
+    uint position, end;  // in the list: entries times list_width
     uint light;
     uint light_end;
     bool more;
 };
-void look(inout CasterWalk walk) {
-    uint place = min(walk.place, max(walk.end, 1u) - 1u);
-    walk.light = lightsOfPacket(place / feature_list_width)[place % feature_list_width];
-    walk.more = walk.place < walk.end && walk.light < walk.light_end;
+void load(inout CasterIterator iterator) {
+    uint position = min(iterator.position, max(iterator.end, 1u) - 1u);
+    iterator.light = lightsOfEntry(position / feature_list_width)[position % feature_list_width];
+    iterator.more = iterator.position < iterator.end && iterator.light < iterator.light_end;
 }
-CasterWalk casterWalk(const uvec2 packets, const uint light_end) {
-    CasterWalk walk = CasterWalk(packets.x * feature_list_width, packets.y * feature_list_width, 0u,
-                                 light_end, false);
-    look(walk);
-    return walk;
+CasterIterator casterIterator(const uvec2 entries, const uint light_end) {
+    CasterIterator iterator =
+        CasterIterator(entries.x * feature_list_width, entries.y * feature_list_width, 0u, light_end, false);
+    load(iterator);
+    return iterator;
 }
-void step(inout CasterWalk walk) {
-    ++walk.place;
-    look(walk);
+void advance(inout CasterIterator iterator) {
+    ++iterator.position;
+    load(iterator);
 }
 
-// A packet without its shadow-casting lights.
+// An entry without its shadow-casting lights.
 uvec4 withoutCasters(const uvec4 lights, const uint light_end, const uint null_light) {
     return uvec4(lights.x < light_end ? null_light : lights.x, lights.y < light_end ? null_light : lights.y,
                  lights.z < light_end ? null_light : lights.z, lights.w < light_end ? null_light : lights.w);
