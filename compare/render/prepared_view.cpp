@@ -233,10 +233,10 @@ Frame describedFrame(const PreparedFrame& prepared, const Scene& scene, const Se
     std::ranges::move(leftOutLight(settings.path, seen.needs), std::back_inserter(frame.notes));
     std::ranges::move(leftOutShadows(seen.lights, settings), std::back_inserter(frame.notes));
     for (const std::string& note : prepared.view.notes) frame.notes.push_back(note);
-    frame.shadow_reach = prepared.view.shadow.sun.reach();
-    frame.shadow_level_reach = prepared.view.shadow.sun.levelReach();
+    frame.shadow_filter_radii = prepared.view.shadow.sun.filterRadii();
+    frame.shadow_level_filter_radii = prepared.view.shadow.sun.levelFilterRadii();
     frame.counters.shadow_pages = prepared.view.shadow.sun.pages();
-    frame.local_shadow_reach = prepared.view.shadow.local.reach();
+    frame.local_shadow_filter_radius = prepared.view.shadow.local.filterRadius();
     frame.counters.lights = prepared.view.lights.count();
     frame.counters.energy_cut =
         energyCut(scene, seen.pose, seen.lights, double{settings.light_cutoff}, prepared.view.lights.falloff);

@@ -39,7 +39,7 @@ std::optional<ShadowErrors> shadowErrorsOf(const Frame& reference, const Frame& 
         leaked += std::max(v - r, 0.0) * e;
         arrives += r * e;
         if (v - r > 0.5)
-            gaps.push_back(edges.hasSun() ? edges.distance(i) / edges.reach(i).texel : unbounded);
+            gaps.push_back(edges.hasSun() ? edges.distance(i) / edges.filterRadius(i).texel : unbounded);
         if (edges.isNear(i)) continue;
         ++away;
         lit += v > r;

@@ -19,11 +19,11 @@ public:
     // For the directional light, if hasSun(): the path's filter radius at the pixel, and the pixel's
     // distance from a shadow boundary, m, perpendicular to the light.
     bool hasSun() const { return sun_; }
-    const ShadowReach& reach(std::size_t pixel) const;
+    const ShadowFilterRadius& filterRadius(std::size_t pixel) const;
     double distance(std::size_t pixel) const { return double{reference_->shadow_edge.pixel(pixel)[0]}; }
     // Whether a shadow boundary of the directional light, or of point and spot lights, lies within the
     // path's filter radius at the pixel.
-    bool isNear(std::size_t pixel) const { return sun_ && distance(pixel) <= reach(pixel).reach; }
+    bool isNear(std::size_t pixel) const { return sun_ && distance(pixel) <= filterRadius(pixel).radius; }
     bool isNearLocal(std::size_t pixel) const;
     // Permitted error of a channel at the pixel, in its unit. Within the filter radius: all that the light
     // adds, or all of its visibility. Elsewhere, and for channels without light: 0.

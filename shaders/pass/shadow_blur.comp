@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform MomentBlock { MomentConstants constants; }
 layout(set = SET_MOMENTS, binding = BINDING_MOMENT_SOURCE) uniform sampler2DArray source;
 layout(set = SET_MOMENTS, binding = BINDING_MOMENT_TARGET) uniform writeonly image2DArray target;
 
-const int REACH = int(feature_shadow_kernel / 2u), MAX_REACH = 3;  // texels on each side of the centre
+const int RADIUS = int(feature_shadow_kernel / 2u), MAX_RADIUS = 3;  // texels on each side of the centre
 
 // Half the side is two standard deviations, slightly more for narrow kernels.
 float gaussian(const int k) {
@@ -31,15 +31,15 @@ void main() {
     ivec2 first = ivec2(gl_GlobalInvocationID.xy) * (along * (run - 1) + 1), last = ivec2(constants.size) - 1;
     if (any(greaterThan(first, last))) return;
     float weights = 1.0;
-    for (int k = 1; k <= REACH; ++k) weights += 2.0 * gaussian(k);
-    vec4 read[BLUR_RUN + 2 * MAX_REACH];
-    for (int i = 0; i < run + 2 * REACH; ++i)
-        read[i] = momentsAt(clamp(first + along * (i - REACH), ivec2(0), last));
+    for (int k = 1; k <= RADIUS; ++k) weights += 2.0 * gaussian(k);
+    vec4 read[BLUR_RUN + 2 * MAX_RADIUS];
+    for (int i = 0; i < run + 2 * RADIUS; ++i)
+        read[i] = momentsAt(clamp(first + along * (i - RADIUS), ivec2(0), last));
     for (int i = 0; i < run; ++i) {
-        vec4 sum = read[i + REACH] / weights;
-        for (int k = 1; k <= REACH; ++k) {
+        vec4 sum = read[i + RADIUS] / weights;
+        for (int k = 1; k <= RADIUS; ++k) {
             float weight = gaussian(k) / weights;
-            sum += weight * read[i + REACH - k] + weight * read[i + REACH + k];
+            sum += weight * read[i + RADIUS - k] + weight * read[i + RADIUS + k];
         }
         ivec2 p = first + along * i;
         if (all(lessThanEqual(p, last))) imageStore(target, ivec3(p, 0), sum);

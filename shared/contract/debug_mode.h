@@ -244,7 +244,7 @@
     X(dielectric_f0,               7, 0, s.dielectric_f0)               \
     X(list_overflow,               7, 3, float(listOverflowed(lights))) \
     X(texcoords,                   8, 0, s.texcoord)                    \
-    X(cascade,                     8, 2, servingCascade(s.position))    \
+    X(cascade,                     8, 2, cascadeIndex(s.position))      \
     X(page_residency,              8, 3, pageResidency(s.position))     \
     X(tangent,                     9, 0, s.tangent)                     \
     X(handedness,                  9, 3, s.handedness)                  \

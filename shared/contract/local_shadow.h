@@ -57,15 +57,15 @@ CONTRACT_TEXELS(LocalShadow, 3);
 
 // Tile of a face: the point z * (a, b, 1), across and along the face, maps to centre + texels * (a, b).
 struct LocalFace {
-    vec2 centre;   // in the atlas, texels
-    float texels;  // 0: the face has no tile, because no visible receiver lies in it
-    float reach;   // texels; largest offset per axis of a filter from the tile's centre that keeps it in
-                   // the tile
+    vec2 centre;              // in the atlas, texels
+    float texels;             // 0: the face has no tile, because no visible receiver lies in it
+    float max_filter_offset;  // texels; largest offset per axis of a filter from the tile's centre that keeps
+                              // it in the tile
 };
 #define LOCAL_FACE_OF_TEXEL(a) LocalFace(a.xy, a.z, a.w)
 CONTRACT_LANE(LocalFace, centre, 0, 0);
 CONTRACT_LANE(LocalFace, texels, 0, 2);
-CONTRACT_LANE(LocalFace, reach, 0, 3);
+CONTRACT_LANE(LocalFace, max_filter_offset, 0, 3);
 CONTRACT_TEXELS(LocalFace, 1);
 
 // LOCAL_SHADOW_LIGHTS: LocalCasters, then LocalShadow and its faces for each light.

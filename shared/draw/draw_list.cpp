@@ -126,9 +126,9 @@ bool isSolid(const DrawItem& item) {
 
 ClipBox clipBox(const glm::dmat4& clipFromObject, const ObjectBox& box) {
     const glm::dvec3 centre(clipFromObject * glm::dvec4(box.centre, 1));
-    glm::dvec3 reach(0);
-    for (int i = 0; i < 3; ++i) reach += glm::abs(glm::dvec3(clipFromObject[i])) * box.half[i];
-    return {centre - reach, centre + reach};
+    glm::dvec3 extent(0);
+    for (int i = 0; i < 3; ++i) extent += glm::abs(glm::dvec3(clipFromObject[i])) * box.half[i];
+    return {centre - extent, centre + extent};
 }
 
 void add(DrawList& list, DrawItem item, const PlacedPrimitive& placed, const glm::dvec3& eye,
@@ -338,7 +338,7 @@ DrawList makeCasterList(const Pose& pose, const Geometry& geometry, const Materi
     return list;
 }
 
-double VisibleBox::reach(const glm::dvec3& along) const {
+double VisibleBox::halfExtent(const glm::dvec3& along) const {
     return std::abs(glm::dot(along, halves[0])) + std::abs(glm::dot(along, halves[1])) +
            std::abs(glm::dot(along, halves[2]));
 }

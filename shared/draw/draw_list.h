@@ -133,7 +133,7 @@ struct VisibleBox {
     glm::dvec3 centre{0};                // world axes, relative to the eye
     std::array<glm::dvec3, 3> halves{};  // half axes
     // Half its extent along a direction, times the direction's length.
-    double reach(const glm::dvec3& along) const;
+    double halfExtent(const glm::dvec3& along) const;
 };
 
 // Boxes of all meshlets that are not outside one plane of the view: a bound of the visible geometry.

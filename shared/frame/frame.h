@@ -96,10 +96,10 @@ struct FrameCamera {
     std::string choice{};      // default view only: the chosen view and how much it shows; else empty
 };
 
-// Distance from a shadow boundary, perpendicular to the light, within which a path's filter may show
+// Filter radius: within it of a shadow boundary, perpendicular to the light, a path's filter may show
 // partial shadow. From the filter's centre to a corner plus one texel, m; valid up to a view depth, m.
-struct ShadowReach {
-    double depth = 0, reach = 0;
+struct ShadowFilterRadius {
+    double depth = 0, radius = 0;
     double texel = 0;  // m
 };
 
@@ -164,11 +164,11 @@ struct Frame {
     std::optional<HiddenLight> hidden_light;
     // Path with shadow-casting point or spot lights: its filter radius in the unit of local_shadow_edge;
     // else 0.
-    double local_shadow_reach = 0;
+    double local_shadow_filter_radius = 0;
     // Path that filters shadow maps: by ascending view depth; else empty.
-    std::vector<ShadowReach> shadow_reach;
+    std::vector<ShadowFilterRadius> shadow_filter_radii;
     // --shadows clipmap: by resident level (cascade + page_residency), at all depths.
-    std::vector<ShadowReach> shadow_level_reach;
+    std::vector<ShadowFilterRadius> shadow_level_filter_radii;
     FrameTime time;
     std::vector<PassTime> passes;
     double made_in_ms = 0;  // wall clock of rendering, timing, capturing and reading back this Frame

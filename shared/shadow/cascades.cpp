@@ -43,19 +43,19 @@ Sphere sphereOf(const View& view, double begin, double end) {
 }
 
 // Extent of the scene, rounded up in steps, so that it mostly stays constant while the camera moves.
-double reachOf(const View& view, const Bounds& bounds) {
-    double reach = glm::length(bounds.max - bounds.min);
+double sceneExtent(const View& view, const Bounds& bounds) {
+    double extent = glm::length(bounds.max - bounds.min);
     for (const glm::dvec3& corner : cornersOf(bounds))
-        reach = std::max(reach, glm::dot(corner - view.eye(), -view.backward()));
-    const double steps = std::ceil(2 * std::log2(std::max(reach, std::numeric_limits<double>::min())));
+        extent = std::max(extent, glm::dot(corner - view.eye(), -view.backward()));
+    const double steps = std::ceil(2 * std::log2(std::max(extent, std::numeric_limits<double>::min())));
     return std::exp2(steps / 2);
 }
 
 }  // namespace
 
 double marginOf(const CascadeRequest& request) {
-    const double reach = (request.kernel + 1) / 2.0;
-    return reach + std::sqrt(2.0) * reach + request.bias + 1;
+    const double radius = (request.kernel + 1) / 2.0;
+    return radius + std::sqrt(2.0) * radius + request.bias + 1;
 }
 
 glm::dvec3 LightSpace::from(const glm::dvec3& world) const {
@@ -103,7 +103,7 @@ Cascades fitCascades(const View& view, const Bounds& bounds, const glm::dvec3& t
     cascades.near = max.z + room;
     cascades.far = min.z - room;
 
-    const double distance = request.distance > 0 ? request.distance : reachOf(view, bounds);
+    const double distance = request.distance > 0 ? request.distance : sceneExtent(view, bounds);
     double far = std::min(view.camera.far, distance), begin = 0, near = view.camera.near;
     if (request.shown) {
         // Margin for different float32 roundings of a view depth.

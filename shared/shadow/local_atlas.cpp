@@ -131,8 +131,8 @@ std::array<glm::dvec3, 3> faceAxes(const AtlasLight& light, gpu::uint face) {
 }
 
 double marginOf(const AtlasRequest& request) {
-    const double reach = (request.kernel + 1) / 2.0;
-    return reach + std::numbers::sqrt2 * reach + request.bias + 1;
+    const double radius = (request.kernel + 1) / 2.0;
+    return radius + std::numbers::sqrt2 * radius + request.bias + 1;
 }
 
 glm::dmat4 LocalAtlas::clipFromWorld(const AtlasTile& tile, const glm::dvec3& eye) const {
@@ -217,9 +217,9 @@ std::vector<glm::vec4> gpuTexels(const LocalAtlas& atlas, const AtlasRequest& re
                 const AtlasTile& tile = atlas.tiles[static_cast<std::size_t>(number)];
                 face.centre = glm::vec2(tile.corner) + static_cast<float>(tile.size) / 2;
                 face.texels = static_cast<float>(tile.texels);
-                face.reach = static_cast<float>((tile.size - request.kernel - 1) / 2.0);
+                face.max_filter_offset = static_cast<float>((tile.size - request.kernel - 1) / 2.0);
             }
-            texels.emplace_back(face.centre, face.texels, face.reach);
+            texels.emplace_back(face.centre, face.texels, face.max_filter_offset);
         }
     }
     return texels;

@@ -187,10 +187,10 @@ std::uint64_t LocalShadows::bytes() const {
     return sum;
 }
 
-double LocalShadows::reach() const {
-    double reach = 0;
-    for (const AtlasTile& tile : atlas_.tiles) reach = std::max(reach, marginOf(request_) / tile.texels);
-    return reach;
+double LocalShadows::filterRadius() const {
+    double radius = 0;
+    for (const AtlasTile& tile : atlas_.tiles) radius = std::max(radius, marginOf(request_) / tile.texels);
+    return radius;
 }
 
 }  // namespace diptych

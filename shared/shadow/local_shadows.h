@@ -49,7 +49,7 @@ public:
 
     std::uint64_t bytes() const;  // of buffers; the atlas belongs to the pass list
     // Largest filter radius over all tiles, relative to the distance from the light; 0 without tiles.
-    double reach() const;
+    double filterRadius() const;
     const LocalAtlas& atlas() const { return atlas_; }
     ImageRef image() const { return image_; }  // in the pass list of the last addPasses()
     // Text for people: number of lights with and without shadows, the atlas, missing tiles.

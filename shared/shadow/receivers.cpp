@@ -63,8 +63,8 @@ std::vector<glm::dvec2> hullOf(std::array<glm::dvec2, 8> points) {
 bool beside(const std::vector<glm::dvec2>& hull, const glm::dvec2& centre, double half) {
     for (std::size_t i = 0; i < hull.size(); ++i) {
         const glm::dvec2 edge = hull[(i + 1) % hull.size()] - hull[i];
-        const double reach = half * (std::abs(edge.x) + std::abs(edge.y));
-        if (cross(edge, centre - hull[i]) < -reach) return true;
+        const double extent = half * (std::abs(edge.x) + std::abs(edge.y));
+        if (cross(edge, centre - hull[i]) < -extent) return true;
     }
     return false;
 }
@@ -110,11 +110,12 @@ ReceiverMask::ReceiverMask(const Cascades& cascades, const CascadeArea& area, co
 
     const glm::dvec3 forward = -view.backward();
     for (const VisibleBox& box : seen) {
-        const double depth = glm::dot(forward, box.centre), reach = box.reach(forward);
-        if (depth - reach > depths.far || depth + reach < depths.near) continue;
-        const double atX = glm::dot(x, box.centre) + origin.x, byX = box.reach(x);
-        const double atY = glm::dot(y, box.centre) + origin.y, byY = box.reach(y);
-        const double min = compares ? glm::dot(z, box.centre) + origin.z - box.reach(z) - deeper : -unbounded;
+        const double depth = glm::dot(forward, box.centre), extent = box.halfExtent(forward);
+        if (depth - extent > depths.far || depth + extent < depths.near) continue;
+        const double atX = glm::dot(x, box.centre) + origin.x, byX = box.halfExtent(x);
+        const double atY = glm::dot(y, box.centre) + origin.y, byY = box.halfExtent(y);
+        const double min =
+            compares ? glm::dot(z, box.centre) + origin.z - box.halfExtent(z) - deeper : -unbounded;
         const CellRange columns = cellsOf(atX - byX, atX + byX), rows = cellsOf(atY - byY, atY + byY);
         for (int row = rows.begin; row < rows.end; ++row)
             for (int column = columns.begin; column < columns.end; ++column) {

@@ -91,25 +91,25 @@ MomentMaps::Request momentsOf(const Settings& settings, const Device& device) {
 }
 
 // From the filter's centre to a corner, plus one texel.
-double reachOf(double width) {
+double filterRadius(double width) {
     return width * std::numbers::sqrt2 / 2 + 1;
 }
 
 // Whether visible geometry may lie in the cascade's view depths, by bounding boxes, with a margin for
 // float32 rounding.
-bool servesSome(const CascadeArea& area, const DrawList& seen) {
-    constexpr double room = 1e-5;
+bool coversVisible(const CascadeArea& area, const DrawList& seen) {
+    constexpr double margin = 1e-5;
     return std::ranges::any_of(seen.items, [&](const DrawItem& item) {
-        return item.depths.nearest * (1 - room) <= area.end &&
-               item.depths.farthest * (1 + room) >= area.begin;
+        return item.depths.nearest * (1 - margin) <= area.end &&
+               item.depths.farthest * (1 + margin) >= area.begin;
     });
 }
 
 // Removes first and last cascades without visible receivers, and adds a note.
 void leaveOutUnseen(Cascades& cascades, const DrawList& seen, std::vector<std::string>& notes) {
-    const auto serves = [&](const CascadeArea& area) { return servesSome(area, seen); };
-    const auto first = std::ranges::find_if(cascades.areas, serves);
-    const auto end = std::find_if(cascades.areas.rbegin(), cascades.areas.rend(), serves).base();
+    const auto covers = [&](const CascadeArea& area) { return coversVisible(area, seen); };
+    const auto first = std::ranges::find_if(cascades.areas, covers);
+    const auto end = std::find_if(cascades.areas.rbegin(), cascades.areas.rend(), covers).base();
     const auto count = static_cast<std::size_t>(std::max<std::ptrdiff_t>(end - first, 0));
     if (count < cascades.areas.size())
         notes.push_back(
@@ -120,15 +120,16 @@ void leaveOutUnseen(Cascades& cascades, const DrawList& seen, std::vector<std::s
 
 // Where a cascade blends into the next, the next one's filter is larger in world space. `widest`: filter
 // width in each cascade, texels.
-std::vector<ShadowReach> reachOf(const Cascades& cascades, const std::function<double(double)>& widest) {
-    std::vector<ShadowReach> reach;
+std::vector<ShadowFilterRadius> cascadeFilterRadii(const Cascades& cascades,
+                                                   const std::function<double(double)>& widest) {
+    std::vector<ShadowFilterRadius> radii;
     for (std::size_t i = 0; i < cascades.areas.size(); ++i) {
         const CascadeArea& area = cascades.areas[i];
         const bool last = i + 1 == cascades.areas.size();
-        const double texels = reachOf(widest(area.texel));
-        reach.push_back({last ? area.end : cascades.areas[i + 1].begin, texels * area.texel, area.texel});
+        const double texels = filterRadius(widest(area.texel));
+        radii.push_back({last ? area.end : cascades.areas[i + 1].begin, texels * area.texel, area.texel});
     }
-    return reach;
+    return radii;
 }
 
 VkRect2D rectangleOf(const ReceiverMask::Texels& texels) {
@@ -169,8 +170,8 @@ void SunShadow::prepare(const FrameInputs& inputs, Uploader& uploader, ClipmapAt
             settings_);
         Cascades none = cascadesOf(clipmap_->clipmap());
         for (const CascadeArea& level : none.areas)
-            level_reach_.push_back({std::numeric_limits<double>::infinity(),
-                                    reachOf(request_.kernel) * level.texel, level.texel});
+            level_filter_radii_.push_back({std::numeric_limits<double>::infinity(),
+                                           filterRadius(request_.kernel) * level.texel, level.texel});
         none.areas.clear();
         sun_ = gpuShadowLight(none, view, sun->light);
         setLight(device, uploader, clipmapTexels());
@@ -281,7 +282,8 @@ void SunShadow::setFilter(gpu::ShadowLight& light, const Cascades& cascades, dou
                             request_.kernel, drawn, penumbra));
     }
     const double min = settings_.shadow_kernel, max = request_.kernel;
-    reach_ = reachOf(cascades, [=](double texel) { return std::clamp(penumbra / texel, min, max); });
+    filter_radii_ =
+        cascadeFilterRadii(cascades, [=](double texel) { return std::clamp(penumbra / texel, min, max); });
 }
 
 std::vector<glm::vec4> SunShadow::clipmapTexels() const {

@@ -57,9 +57,9 @@ public:
     // Images that do not belong to the pass list.
     std::uint64_t imageBytes() const { return clipmap_ ? clipmap_->imageBytes() : 0; }
     // Filter radius by view depth.
-    const std::vector<ShadowReach>& reach() const { return reach_; }
+    const std::vector<ShadowFilterRadius>& filterRadii() const { return filter_radii_; }
     // Filter radius by resident clipmap level.
-    const std::vector<ShadowReach>& levelReach() const { return level_reach_; }
+    const std::vector<ShadowFilterRadius>& levelFilterRadii() const { return level_filter_radii_; }
     ShadowPages pages() const { return clipmap_ ? clipmap_->counts() : ShadowPages{}; }
     ClipmapShadow* clipmap() { return clipmap_ ? &*clipmap_ : nullptr; }
     // --shadow-fit depth: view depths that cascades cover.
@@ -95,12 +95,12 @@ private:
     bool casts_ = false;                       // the sun casts shadows: surfaces facing away are dark even
                                                // without casters
     std::vector<Map> maps_;  // one per cascade that visible receivers may sample; empty without casters
-    std::vector<ShadowReach> reach_;
+    std::vector<ShadowFilterRadius> filter_radii_;
     std::optional<ClipmapShadow> clipmap_;
     gpu::ShadowLight sun_{};  // for the clipmap
     const View* view_ = nullptr;
     Uploader* uploader_ = nullptr;
-    std::vector<ShadowReach> level_reach_;
+    std::vector<ShadowFilterRadius> level_filter_radii_;
     std::vector<std::string> notes_, details_;
     GpuBuffer light_;
     OwnedBufferView light_view_;

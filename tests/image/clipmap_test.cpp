@@ -109,8 +109,8 @@ TEST_P(ClipmapPaths, AreTheReferencesAwayFromEdges) {
             ++covered;
             const float serves = *path.channels.at(Channel::cascade).pixel(i) +
                                  *path.channels.at(Channel::page_residency).pixel(i);
-            const double reach = path.shadow_level_reach.at(static_cast<std::size_t>(serves)).reach;
-            if (double{reference.shadow_edge.pixel(i)[0]} <= reach) {
+            const double radius = path.shadow_level_filter_radii.at(static_cast<std::size_t>(serves)).radius;
+            if (double{reference.shadow_edge.pixel(i)[0]} <= radius) {
                 ++near;
                 continue;
             }
@@ -195,7 +195,7 @@ TEST(ClipmapPlane, WithoutASunThereIsNoClipmap) {
         drawnWith(renderer, paged(GBufferEncoding::standard),
                   {Channel::shadow_visibility, Channel::page_residency, Channel::material_id});
     EXPECT_EQ(frame.counters.shadow_pages.requested, 0u);
-    EXPECT_TRUE(frame.shadow_level_reach.empty());
+    EXPECT_TRUE(frame.shadow_level_filter_radii.empty());
     for (std::size_t i = 0; i < frame.channels.at(Channel::shadow_visibility).pixels(); ++i) {
         if (*frame.channels.at(Channel::material_id).pixel(i) < 0) continue;
         ASSERT_EQ(*frame.channels.at(Channel::shadow_visibility).pixel(i), 1);

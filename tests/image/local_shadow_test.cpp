@@ -106,17 +106,17 @@ TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     options.runs = 0;
     const Frame path = renderer.draw(settings, options), reference = renderer.draw(truth, options);
     ASSERT_FALSE(reference.local_shadow_edge.empty());
-    ASSERT_GT(path.local_shadow_reach, 0);
+    ASSERT_GT(path.local_shadow_filter_radius, 0);
     // From the filter's centre to a corner, plus a texel. The path's own bound also includes the bias.
-    const double reach = path.local_shadow_reach * (3 * std::numbers::sqrt2 / 2 + 1) /
-                         marginOf(AtlasRequest{.kernel = 3, .bias = double{settings.shadow_bias}});
+    const double radius = path.local_shadow_filter_radius * (3 * std::numbers::sqrt2 / 2 + 1) /
+                          marginOf(AtlasRequest{.kernel = 3, .bias = double{settings.shadow_bias}});
     std::size_t covered = 0, near = 0, falseLit = 0, falseDark = 0;
     for (std::size_t i = 0; i < path.channels.at(Channel::local_visibility).pixels(); ++i) {
         if (*path.channels.at(Channel::material_id).pixel(i) < 0) continue;
         ++covered;
         const float seen = *path.channels.at(Channel::local_visibility).pixel(i),
                     is = *reference.channels.at(Channel::local_visibility).pixel(i);
-        if (double{*reference.local_shadow_edge.pixel(i)} <= reach) {
+        if (double{*reference.local_shadow_edge.pixel(i)} <= radius) {
             ++near;
             continue;
         }
@@ -227,7 +227,7 @@ TEST(LocalShadowCasters, FollowTheirAlphaMode) {
     EXPECT_TRUE(says(frame, "shadows of 1 local light: no tile is drawn; "));
     EXPECT_TRUE(says(frame, "without a tile: no caster"));
     EXPECT_EQ(locallySeen(frame).min, 1);
-    EXPECT_EQ(frame.local_shadow_reach, 0);
+    EXPECT_EQ(frame.local_shadow_filter_radius, 0);
     for (Light& light : scene.lights) light.position.y = -2;
     EXPECT_EQ(locallySeen(drawnOf(scene, settings)).max, 0);
 }
@@ -241,7 +241,7 @@ TEST(LocalShadowCasters, AreThoseThatAsk) {
     const Frame without = drawnOf(scene, off, channels), asked = drawnOf(scene, none, channels);
     EXPECT_EQ(differingPixels(without.channels.at(Channel::lit), asked.channels.at(Channel::lit)), 0u);
     EXPECT_EQ(locallySeen(asked).min, 1);
-    EXPECT_EQ(asked.local_shadow_reach, 0);
+    EXPECT_EQ(asked.local_shadow_filter_radius, 0);
     EXPECT_TRUE(says(asked, "2 point or spot lights cast no shadow")) << "and it is said";
     EXPECT_FALSE(says(without, "no shadow"));
     const Frame brightest = drawnOf(scene, one, channels);

@@ -94,7 +94,7 @@ Gap gapOf(const Contact& contact) {
         for (int x = size.width - 1; x >= 0; --x) {
             EXPECT_EQ(frame.channels.at(Channel::material_id).at(x, y), 0);
             const auto serves = static_cast<std::size_t>(frame.channels.at(Channel::cascade).at(x, y));
-            const double texel = frame.shadow_reach.at(serves).texel;
+            const double texel = frame.shadow_filter_radii.at(serves).texel;
             const double behind = -double{place.at(x, y, 0)} * across / texel;
             const double v{seen.at(x, y)};
             if (behind < -(contact.kernel / 2.0 + 1.5)) gap.min = std::min(gap.min, v);
@@ -188,7 +188,7 @@ TEST(ShadowWalk, StaticPointsKeepTheirVisibility) {
                 // Not where a cascade blends into the next.
                 const auto number = static_cast<std::size_t>(now);
                 if (std::max(at(frame, Channel::depth, x), at(*last, Channel::depth, x + moved)) >
-                    frame.shadow_reach.at(number).depth)
+                    frame.shadow_filter_radii.at(number).depth)
                     continue;
                 ++same;
                 changed += std::abs(at(frame, Channel::shadow_visibility, x) -
@@ -237,7 +237,7 @@ TEST(ShadowSeams, AreNoWiderThanTexels) {
                 row = {static_cast<int>(number),
                        value(Channel::position, x - 1) +
                            part * (value(Channel::position, x) - value(Channel::position, x - 1)),
-                       frame.shadow_reach.at(number).texel};
+                       frame.shadow_filter_radii.at(number).texel};
             }
         }
         if (row) rows.push_back(*row);

@@ -100,7 +100,8 @@ TEST_P(ShadowFilters, MapsFitWhatTheImageShows) {
     PassList passes(device(), 160, 90);
     functionsOf(settings.path).add(passes, prepared.inputs);
     EXPECT_EQ(passes.names().front(), "shadow depth bounds");
-    EXPECT_LE(prepared.shadow.sun.reach().back().reach, standard.shadow.sun.reach().back().reach);
+    EXPECT_LE(prepared.shadow.sun.filterRadii().back().radius,
+              standard.shadow.sun.filterRadii().back().radius);
     const auto& notes = frames[0].notes;
     EXPECT_TRUE(std::ranges::any_of(notes, [](const std::string& note) {
         return note.find("in 8 steps of a texel") != std::string::npos;

@@ -86,13 +86,13 @@ TEST_P(ShadowPaths, AreTheReferencesAwayFromEdges) {
         if (*path.channels.at(Channel::material_id).pixel(i) < 0) continue;
         ++covered;
         const double z{*path.channels.at(Channel::depth).pixel(i)};
-        const auto reach =
-            std::ranges::find_if(path.shadow_reach, [&](const ShadowReach& r) { return z <= r.depth; });
-        ASSERT_NE(reach, path.shadow_reach.end());
+        const auto filter = std::ranges::find_if(path.shadow_filter_radii,
+                                                 [&](const ShadowFilterRadius& r) { return z <= r.depth; });
+        ASSERT_NE(filter, path.shadow_filter_radii.end());
         const float* const edge = reference.shadow_edge.pixel(i);
         const float seen = *path.channels.at(Channel::shadow_visibility).pixel(i),
                     is = *reference.channels.at(Channel::shadow_visibility).pixel(i);
-        if (double{edge[0]} <= reach->reach) {
+        if (double{edge[0]} <= filter->radius) {
             ++near;
             continue;
         }
@@ -233,7 +233,7 @@ TEST(ShadowCasters, AreOfTheBrightestSun) {
     scene.lights.push_back(lamp);
     const Frame none = drawn(scene, settings);
     EXPECT_EQ(seenWhere(none, [](int, int) { return true; }).min, 1);
-    EXPECT_TRUE(none.shadow_reach.empty());
+    EXPECT_TRUE(none.shadow_filter_radii.empty());
 }
 
 // A camera that sees the ground from 1.5 to 4 m renders no cascades nearer or farther. Without casters no

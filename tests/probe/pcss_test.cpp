@@ -29,8 +29,8 @@ struct Steep {
 
     double low() const { return 0.75 * blocker; }
     double wanted() const { return std::min(2 * disc * blocker, widest); }
-    double highest() const { return std::max(2.0, blocker / 2); }  // rise of the plane that is compared
-    double limit() const { return 2 * highest() / slope - 1; }
+    double maxBias() const { return std::max(2.0, blocker / 2); }  // rise of the plane that is compared
+    double limit() const { return 2 * maxBias() / slope - 1; }
     double width() const { return std::max(std::min(wanted(), limit()), double{kernel}); }
 };
 
@@ -61,7 +61,7 @@ double litPart(const Steep& of, double width) {
         for (int i = -reach; i < reach; ++i) {
             const double x = (i + 0.5) / Steep::parts, y = (j + 0.5) / Steep::parts;
             const double weight = std::clamp(width / 2 + 0.5 - std::hypot(x, y), 0.0, 1.0) *
-                                  std::clamp(of.highest() - of.slope * x, 0.0, 1.0);
+                                  std::clamp(of.maxBias() - of.slope * x, 0.0, 1.0);
             all += weight;
             if (y <= of.edge) lit += weight;
         }

@@ -22,7 +22,7 @@
 #include "shaders/lib/geometry/position.glsl"
 #include "shaders/lib/shading/radiance.glsl"
 #include "shaders/lib/shading/sheen.glsl"
-#include "shaders/lib/shadows/shadow.glsl"
+#include "shaders/lib/shadows/sun_shadow.glsl"
 #include "shaders/lib/surface/surface.glsl"
 
 // Values of a pixel that every light uses.

@@ -39,8 +39,8 @@ float visibilityOf(Surface s, const uint index, const vec3 light_position) {
     LocalFace face = localFaceAt(index, face_index);
     float rounding = LOCAL_ROUNDING * (lengthOf(from_light) + lengthOf(s.position));
     vec3 n = onFace(inLight(light, s.geometric_normal), face_index);
-    Receiver r = localReceiver(onFace(p, face_index), n, rounding, light, face);
-    float visibility = face.texels > 0.0 ? filtered(local_shadow_map, r, vec2(0.0), 0u) : 1.0;
+    ReceiverPlane r = localReceiverPlane(onFace(p, face_index), n, rounding, light, face);
+    float visibility = face.texels > 0.0 ? pcfVisibility(local_shadow_map, r, vec2(0.0), 0u) : 1.0;
     return dot(s.geometric_normal, from_light) < 0.0 ? visibility : 0.0;
 }
 

@@ -31,7 +31,7 @@ const vec2 GATHERED[4] = vec2[](vec2(0.5, 1.5), vec2(1.5, 1.5), vec2(1.5, 0.5), 
 
 // Mean and smallest distance of blockers in front of the receiver, in the map's depth; 0 without any.
 // `cone`: radius in texels at a depth of 1. Texels up to the triangle's own plane are not blockers.
-vec2 blockerDistance(const Receiver r, const uint layer, const float cone, const float widest) {
+vec2 blockerDistance(const ReceiverPlane r, const uint layer, const float cone, const float widest) {
     Blocks blocks = blocksAround(r.texel, clamp(2.0 * cone * (1.0 - r.depth), 1.0, widest));
     float sum = 0.0, count = 0.0, smallest = 1.0;
     uvec2 rows = uvec2(0, blocks.side);
@@ -57,7 +57,7 @@ vec2 blockerDistance(const Receiver r, const uint layer, const float cone, const
 }
 
 // Filters over a disc `width` texels wide around the receiver; texels at the rim count in part.
-float filteredDisc(const Receiver r, const uint layer, const float width) {
+float pcfDiscVisibility(const ReceiverPlane r, const uint layer, const float width) {
     Blocks blocks = blocksAround(r.texel, width);
     float lit = 0.0, area = 0.0;
     uvec2 rows = uvec2(0, blocks.side);
@@ -69,8 +69,8 @@ float filteredDisc(const Receiver r, const uint layer, const float width) {
             for (int i = 0; i < 4; ++i) {
                 vec2 texel = corner + GATHERED[i];
                 float weight = clamp(0.5 * width + 0.5 - lengthOf(texel - r.texel), 0.0, 1.0);
-                weight *= countOf(r, texel);
-                lit += weight * seesLight(r, stored[i], texel);
+                weight *= texelWeight(r, texel);
+                lit += weight * compareWithPlaneBias(r, stored[i], texel);
                 area += weight;
             }
             NEXT(columns);
@@ -82,14 +82,14 @@ float filteredDisc(const Receiver r, const uint layer, const float width) {
 
 // `r`: for the smallest width, feature_shadow_kernel. In a wide filter the plane may rise halfway to the
 // nearest blocker; where it is steeper the filter is narrower.
-float softlyFiltered(const Surface s, const ShadowLight light, const Cascade cascade, const Receiver r,
+float pcssVisibility(const Surface s, const ShadowLight light, const Cascade cascade, const ReceiverPlane r,
                      const uint layer) {
     float texels = cascade.texels_per_metre / light.depth_scale, cone = light.disc * texels;
     vec2 blocker = blockerDistance(r, layer, cone, light.widest);
-    float largest = max(r.largest, 0.5 * blocker.y), steepest = 2.0 * largest / lengthOf(r.slope) - 1.0;
+    float max_bias = max(r.max_bias, 0.5 * blocker.y), steepest = 2.0 * max_bias / lengthOf(r.slope) - 1.0;
     float width = max(min(min(2.0 * cone * blocker.x, light.widest), steepest), float(feature_shadow_kernel));
-    Receiver soft = receiverOf(s, light, cascade, largest * texels);
-    return filteredDisc(soft, layer, width);
+    ReceiverPlane soft = sunReceiverPlane(s, light, cascade, max_bias * texels);
+    return pcfDiscVisibility(soft, layer, width);
 }
 
 #endif

@@ -8,7 +8,7 @@
 #include "shaders/lib/shading/radiance.glsl"
 #include "shaders/lib/shading/shade.glsl"
 #include "shaders/lib/shading/transmission.glsl"
-#include "shaders/lib/shadows/shadow.glsl"
+#include "shaders/lib/shadows/sun_shadow.glsl"
 
 #define LOCATIONS(X) X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7)
 #define OUTPUT(at) layout(location = at) out vec4 out_##at;

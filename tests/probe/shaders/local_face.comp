@@ -19,7 +19,7 @@ void main() {
     LocalFace tile =
         LocalFace(vec2(IN(WIDTH, at), IN(WIDTH, at + 1u)), IN(WIDTH, at + 2u), IN(WIDTH, at + 3u));
     vec3 normal = inLight(light, IN3(WIDTH, 3));
-    Receiver r = localReceiver(onFace(p, face), onFace(normal, face), 0.0, light, tile);
+    ReceiverPlane r = localReceiverPlane(onFace(p, face), onFace(normal, face), 0.0, light, tile);
     OUT(5, 0) = float(face);
     OUT(5, 1) = r.texel.x;
     OUT(5, 2) = r.texel.y;
@@ -33,8 +33,8 @@ void main() {
             vec2 across = (texel - tile.centre) / tile.texels;
             float inverse = dot(n, vec3(across, 1.0)) / dot(n, q);
             float plane = inverse * light.depth_scale + light.depth_offset;
-            float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.largest);
-            smallest = min(smallest, r.depth + lift - plane);
+            float bias = clamp(dot(r.slope, texel - r.texel) - r.normal_offset_depth, 0.0, r.max_bias);
+            smallest = min(smallest, r.depth + bias - plane);
         }
     OUT(5, 4) = smallest;
 }

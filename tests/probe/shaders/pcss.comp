@@ -23,7 +23,7 @@ vec4 storedAround(const vec3 point) {
 }
 #define textureGather(map, point) storedAround(point)
 #define textureSize(map, level) ivec3(MAP_SIZE)
-#include "shaders/lib/shadows/shadow.glsl"
+#include "shaders/lib/shadows/sun_shadow.glsl"
 
 void main() {
     if (PROBE_ROW >= probe_rows) return;
@@ -43,6 +43,6 @@ void main() {
     cascade.texels_per_metre = 1.0;
     cascade.offset = vec2(0.0);
     cascade.bias = 0.0;
-    Receiver r = receiverOf(s, light, cascade, MAX_LIFT);
-    OUT(1, 0) = softlyFiltered(s, light, cascade, r, 0u);
+    ReceiverPlane r = sunReceiverPlane(s, light, cascade, MAX_PLANE_BIAS);
+    OUT(1, 0) = pcssVisibility(s, light, cascade, r, 0u);
 }

@@ -40,7 +40,7 @@ Frame filteredRow(const std::vector<float>& visibility) {
     path.settings.size = {4, 1};
     path.channels[Channel::shadow_visibility] = pixelRow(visibility);
     path.channels[Channel::depth] = pixelRow({1, 1, 1, 1});
-    path.shadow_reach = {{10, 0.02, 0.005}};
+    path.shadow_filter_radii = {{10, 0.02, 0.005}};
     return path;
 }
 
@@ -64,7 +64,7 @@ TEST(TradeoffShadow, ErrorsAreOfLightThatIsWrong) {
 
 TEST(TradeoffShadow, AFrameWithoutMapsShowsTheSunEverywhere) {
     Frame open = filteredRow({1, 1, 1, 1});
-    open.shadow_reach.clear();
+    open.shadow_filter_radii.clear();
     const auto errors = shadowErrorsOf(tracedRow(), open);
     ASSERT_TRUE(errors);
     EXPECT_EQ((*errors)[1], 0.5) << "every pixel counts";

@@ -38,7 +38,7 @@ std::vector<bool> nearOf(const Frame& path, const std::vector<float>& edges) {
 TEST(ShadowEdges, CascadesReachByViewDepth) {
     Frame path;
     path.settings.path = Path::deferred;
-    path.shadow_reach = {{2, 0.1}, {8, 0.4}};
+    path.shadow_filter_radii = {{2, 0.1}, {8, 0.4}};
     EXPECT_TRUE(nearOf(path, {0, 0, 0, 0}).empty()) << "without depths";
     path.channels[Channel::depth] = rowOf({1, 1, 5, 50});
     EXPECT_EQ(nearOf(path, {0.05f, 0.2f, 0.2f, 0.3f}), (std::vector{true, false, true, true}));
@@ -48,7 +48,7 @@ TEST(ShadowEdges, CascadesReachByViewDepth) {
 TEST(ShadowEdges, AClipmapReachesByTheLevelThatServes) {
     Frame path;
     path.settings.path = Path::deferred;
-    path.shadow_level_reach = {{9, 0.1}, {9, 0.2}, {9, 0.4}, {9, 3}};
+    path.shadow_level_filter_radii = {{9, 0.1}, {9, 0.2}, {9, 0.4}, {9, 3}};
     path.channels[Channel::cascade] = rowOf({0, 0, 1, 1});
     EXPECT_TRUE(nearOf(path, {0, 0, 0, 0}).empty()) << "without what serves";
     path.channels[Channel::page_residency] = rowOf({0, 2, 0, 2});

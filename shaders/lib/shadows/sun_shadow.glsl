@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Visibility of the directional light (shared/contract/shadow.h).
-#ifndef SHADOW_GLSL
-#define SHADOW_GLSL
+#ifndef SUN_SHADOW_GLSL
+#define SUN_SHADOW_GLSL
 
 #include "shaders/lib/shadows/clipmap.glsl"
 #include "shaders/lib/math/loop.glsl"
@@ -25,7 +25,7 @@ uint cascadeOf(const ShadowLight light, const float depth) {
 
 // Index of that cascade, or the requested level of the clipmap, as a channel; -1 if none covers the
 // position.
-float servingCascade(const vec3 position) {
+float cascadeIndex(const vec3 position) {
     if (!on(feature_shadows)) return -1.0;
     if (feature_shadows == SHADOWS_CLIPMAP) return float(levelAt(clipmap(), position));
     ShadowLight light = shadowLight();
@@ -36,67 +36,69 @@ float servingCascade(const vec3 position) {
 // Resident level minus requested level of the clipmap, as a channel; -1 without a clipmap.
 float pageResidency(const vec3 position) {
     if (feature_shadows != SHADOWS_CLIPMAP) return -1.0;
-    return servingPage(shadowLight(), position).level - servingCascade(position);
+    return servingPage(shadowLight(), position).level - cascadeIndex(position);
 }
 
 // A surface as the light sees it in a cascade: its texel coordinates, its depth there, and the plane of
-// its triangle. With the plane, a surface at a grazing angle to the light does not shadow itself at any
-// texel of a filter. Nothing is derived from neighbouring pixels.
+// its triangle. The plane is the depth bias of the comparisons (receiver plane depth bias, Isidoro 2006,
+// "Shadow Mapping: GPU-based Tips and Techniques"): a surface at a grazing angle to the light does not
+// shadow itself at any texel of a filter. Nothing is derived from neighbouring pixels.
 //
-// Texels towards which the plane rises are compared with the plane, up to MAX_LIFT texels above the
+// Texels towards which the plane rises are compared with the plane, up to MAX_PLANE_BIAS texels above the
 // surface. Farther up the triangle may have ended, and another surface there would be mistaken for it.
 // Texels where the plane rises more do not count, and they fade out before that. Texels towards which it
 // falls remain, and no texel beside the filter is read for them.
-struct Receiver {
+struct ReceiverPlane {
     vec2 texel;
     float depth;
-    vec2 slope;     // of depth, per texel
-    float aside;    // fall of the plane's depth if the surface was moved sideways
-    float largest;     // largest rise of the plane that is compared, depth
-    float highest;  // rise of the plane at which a texel no longer counts, depth
-    float counts;   // weight of a texel per depth below `highest`
+    vec2 slope;                 // of depth, per texel
+    float normal_offset_depth;  // fall of the plane's depth if the surface was moved sideways
+    float max_bias;             // largest rise of the plane that is compared, depth
+    float cutoff_bias;          // rise of the plane at which a texel no longer counts, depth
+    float cutoff_scale;         // weight of a texel per depth below `cutoff_bias`
 };
 
-const float MAX_LIFT = 2.0;
+const float MAX_PLANE_BIAS = 2.0;
 // Smallest cosine between geometric normal and light that slopes use: a steeper plane crosses the whole
 // scene within few texels.
 const float MIN_SLOPE_COSINE = 1e-3;
 
-// `most`: largest rise of the plane above the surface, texels.
-Receiver receiverOf(const Surface s, const ShadowLight light, const Cascade cascade, const float largest) {
+// `max_bias`: largest rise of the plane above the surface, texels.
+ReceiverPlane sunReceiverPlane(const Surface s, const ShadowLight light, const Cascade cascade,
+                               const float max_bias) {
     vec2 across = vec2(dot(s.geometric_normal, light.x), dot(s.geometric_normal, light.y));
     float cosine = max(dot(s.geometric_normal, light.to_light), MIN_SLOPE_COSINE);
     float texel = 1.0 / cascade.texels_per_metre;
     float bias = cascade.bias * texel + light.rounding * lengthOf(s.position);
     vec3 position = s.position + s.geometric_normal * bias;
     float depth_of_texel = texel * light.depth_scale;
-    Receiver r;
+    ReceiverPlane r;
     r.texel =
         vec2(dot(position, light.x), dot(position, light.y)) * cascade.texels_per_metre + cascade.offset;
     r.depth = dot(position, light.to_light) * light.depth_scale + light.depth_offset;
     r.slope = across * (-depth_of_texel / cosine);
-    r.aside = 0.0;
-    r.largest = largest * depth_of_texel;
-    r.highest = r.largest;
-    r.counts = 1.0 / depth_of_texel;
+    r.normal_offset_depth = 0.0;
+    r.max_bias = max_bias * depth_of_texel;
+    r.cutoff_bias = r.max_bias;
+    r.cutoff_scale = 1.0 / depth_of_texel;
     return r;
 }
 
 // 1 if the map's texel at `texel` (its centre) has nothing nearer to the light than the receiver.
-float seesLight(const Receiver r, const float stored, const vec2 texel) {
-    float lift = clamp(dot(r.slope, texel - r.texel) - r.aside, 0.0, r.largest);
-    return stored > r.depth + lift ? 0.0 : 1.0;
+float compareWithPlaneBias(const ReceiverPlane r, const float stored, const vec2 texel) {
+    float bias = clamp(dot(r.slope, texel - r.texel) - r.normal_offset_depth, 0.0, r.max_bias);
+    return stored > r.depth + bias ? 0.0 : 1.0;
 }
 
 // Weight of a texel, 0 to 1.
-float countOf(const Receiver r, const vec2 texel) {
-    return clamp((r.highest - dot(r.slope, texel - r.texel)) * r.counts, 0.0, 1.0);
+float texelWeight(const ReceiverPlane r, const vec2 texel) {
+    return clamp((r.cutoff_bias - dot(r.slope, texel - r.texel)) * r.cutoff_scale, 0.0, 1.0);
 }
 
 // Box filter of feature_shadow_kernel texels around the receiver, each weighted by its area in the box
 // (percentage-closer filtering, Reeves et al. 1987, "Rendering Antialiased Shadows with Depth Maps").
 // `shift`: from the receiver's texels to the layer's, whole.
-float filtered(const sampler2DArray map, const Receiver r, const vec2 shift, const uint layer) {
+float pcfVisibility(const sampler2DArray map, const ReceiverPlane r, const vec2 shift, const uint layer) {
     vec2 size = vec2(textureSize(map, 0).xy);
     vec2 low = r.texel - 0.5 * float(feature_shadow_kernel);
     vec2 first = floor(low), part = low - first;
@@ -111,14 +113,14 @@ float filtered(const sampler2DArray map, const Receiver r, const vec2 shift, con
             vec2 wy = vec2(y == 0u ? 1.0 - part.y : 1.0, y + 1u == feature_shadow_kernel ? part.y : 1.0);
             vec4 weights =
                 vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x);  // in textureGather's order
-            weights.x *= countOf(r, corner + vec2(0.5, 1.5));
-            weights.y *= countOf(r, corner + vec2(1.5, 1.5));
-            weights.z *= countOf(r, corner + vec2(1.5, 0.5));
-            weights.w *= countOf(r, corner + vec2(0.5, 0.5));
-            lit += weights.x * seesLight(r, stored.x, corner + vec2(0.5, 1.5));
-            lit += weights.y * seesLight(r, stored.y, corner + vec2(1.5, 1.5));
-            lit += weights.z * seesLight(r, stored.z, corner + vec2(1.5, 0.5));
-            lit += weights.w * seesLight(r, stored.w, corner + vec2(0.5, 0.5));
+            weights.x *= texelWeight(r, corner + vec2(0.5, 1.5));
+            weights.y *= texelWeight(r, corner + vec2(1.5, 1.5));
+            weights.z *= texelWeight(r, corner + vec2(1.5, 0.5));
+            weights.w *= texelWeight(r, corner + vec2(0.5, 0.5));
+            lit += weights.x * compareWithPlaneBias(r, stored.x, corner + vec2(0.5, 1.5));
+            lit += weights.y * compareWithPlaneBias(r, stored.y, corner + vec2(1.5, 1.5));
+            lit += weights.z * compareWithPlaneBias(r, stored.z, corner + vec2(1.5, 0.5));
+            lit += weights.w * compareWithPlaneBias(r, stored.w, corner + vec2(0.5, 0.5));
             area += weights.x;
             area += weights.y;
             area += weights.z;
@@ -129,7 +131,7 @@ float filtered(const sampler2DArray map, const Receiver r, const vec2 shift, con
 }
 
 // One sample of blurred moments.
-float filteredMoments(const Receiver r, const uint layer, const ShadowLight light) {
+float momentMapVisibility(const ReceiverPlane r, const uint layer, const ShadowLight light) {
     float size = float(textureSize(shadow_map, 0).x);
     vec4 moments = textureLod(shadow_map, vec3(r.texel / size, float(layer)), 0.0);
     return visibilityOfMoments(moments, r.depth, light);
@@ -139,17 +141,17 @@ float filteredMoments(const Receiver r, const uint layer, const ShadowLight ligh
 
 float cascadeVisibility(const Surface s, const ShadowLight light, const uint layer) {
     Cascade cascade = cascadeAt(layer);
-    Receiver r = receiverOf(s, light, cascade, MAX_LIFT);
-    if (feature_shadows == SHADOWS_PCF) return filtered(shadow_map, r, vec2(0.0), layer);
-    if (feature_shadows == SHADOWS_PCSS) return softlyFiltered(s, light, cascade, r, layer);
-    return filteredMoments(r, layer, light);
+    ReceiverPlane r = sunReceiverPlane(s, light, cascade, MAX_PLANE_BIAS);
+    if (feature_shadows == SHADOWS_PCF) return pcfVisibility(shadow_map, r, vec2(0.0), layer);
+    if (feature_shadows == SHADOWS_PCSS) return pcssVisibility(s, light, cascade, r, layer);
+    return momentMapVisibility(r, layer, light);
 }
 
 float clipmapVisibility(const Surface s, const ShadowLight light) {
     ClipmapPage page = servingPage(light, s.position);
     Cascade level = clipmapLevel(uint(page.level));
-    Receiver r = receiverOf(s, light, level, MAX_LIFT);
-    return filtered(shadow_map, r, page.shift, 0);
+    ReceiverPlane r = sunReceiverPlane(s, light, level, MAX_PLANE_BIAS);
+    return pcfVisibility(shadow_map, r, page.shift, 0);
 }
 
 // `faces`: whether the triangle faces the light. If none of several adjacent pixels does, they read
