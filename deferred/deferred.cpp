@@ -142,24 +142,25 @@ void addGBuffer(PassList& passes, const FrameInputs& inputs, const FrameImages& 
     if (!parts.second.empty()) addSecondGBuffer(passes, inputs, images, parts);
 }
 
-// Adds the depth of solids that are shaded after lighting. Lighting shades their pixels in vain.
-void addDepthOfApart(PassList& passes, const FrameInputs& inputs, const FrameImages& images) {
-    if (inputs.draws.apartSolids().empty()) return;
+// Adds the depth of forward-shaded solids, which come after lighting. Lighting shades their pixels in vain.
+void addForwardShadedDepth(PassList& passes, const FrameInputs& inputs, const FrameImages& images) {
+    if (inputs.draws.forwardShadedSolids().empty()) return;
     readGeometry(passes, passes.draw("depth of layers"), inputs)
         .depth(images.depth, Load::keep)
-        .record(recordDraws(inputs, inputs.draws.apartSolids(), depthKey));
+        .record(recordDraws(inputs, inputs.draws.forwardShadedSolids(), depthKey));
 }
 
 // Shades solids that the G-buffer does not store; `target` declares the attachments of the last pass.
-void addApart(PassList& passes, const FrameInputs& inputs, const FrameImages& images,
-              const std::function<Pass&()>& target,
-              const std::function<PipelineKey(const DrawItem&, const LightBatch&)>& keyOf) {
+void addForwardShaded(PassList& passes, const FrameInputs& inputs, const FrameImages& images,
+                      const std::function<Pass&()>& target,
+                      const std::function<PipelineKey(const DrawItem&, const LightBatch&)>& keyOf) {
     const auto add = [&](Pass& pass, const LightBatch& batch, const auto& key) {
         pass.depthTest(images.depth);
         inputs.shadow.read(pass);
-        addForwardDraws(pass, passes, inputs, images,
-                        {inputs.draws.apartSolids(), [&](const DrawItem& item) { return key(item, batch); }},
-                        batch);
+        addForwardDraws(
+            pass, passes, inputs, images,
+            {inputs.draws.forwardShadedSolids(), [&](const DrawItem& item) { return key(item, batch); }},
+            batch);
     };
     const LightBatch last = addEarlierBatches(
         passes, inputs,
@@ -172,17 +173,17 @@ void addApart(PassList& passes, const FrameInputs& inputs, const FrameImages& im
     add(target(), last, keyOf);
 }
 
-void addApart(PassList& passes, const FrameInputs& inputs, const FrameImages& images, ImageRef lit) {
-    if (inputs.draws.apartSolids().empty()) return;
-    addApart(
+void addForwardShaded(PassList& passes, const FrameInputs& inputs, const FrameImages& images, ImageRef lit) {
+    if (inputs.draws.forwardShadedSolids().empty()) return;
+    addForwardShaded(
         passes, inputs, images, [&]() -> Pass& { return passes.draw("shade layers").color(lit, Load::keep); },
         [&](const DrawItem& item, const LightBatch& batch) { return forwardKey(inputs, item, batch); });
 }
 
 // Continues a capture of the last pass, whose images are the last of `images`.
-void addApartCapture(PassList& passes, const FrameInputs& inputs, const FrameImages& frame,
-                     const CaptureGroup& group, std::vector<CapturedImage>& images) {
-    if (inputs.draws.apartSolids().empty()) return;
+void addForwardShadedCapture(PassList& passes, const FrameInputs& inputs, const FrameImages& frame,
+                             const CaptureGroup& group, std::vector<CapturedImage>& images) {
+    if (inputs.draws.forwardShadedSolids().empty()) return;
     const std::size_t before = passes.size() - 1;
     std::vector<CapturedImage*> of_group;
     for (CapturedImage& image : images)
@@ -196,7 +197,7 @@ void addApartCapture(PassList& passes, const FrameInputs& inputs, const FrameIma
         }
         return pass;
     };
-    addApart(passes, inputs, frame, target, [&](const DrawItem& item, const LightBatch& batch) {
+    addForwardShaded(passes, inputs, frame, target, [&](const DrawItem& item, const LightBatch& batch) {
         return forwardCaptureKey(inputs, item, group, batch);
     });
     for (CapturedImage* image : of_group) image->pass = passes.size() - 1;
@@ -212,9 +213,10 @@ LightBatch addEarlierLighting(PassList& passes, const FrameInputs& inputs, const
     return addEarlierBatches(passes, inputs, add, SumsBy::attachments, inputs.gbuffer.layers);
 }
 
-// Adds the solids apart, background, blended surfaces, resolve and shadow page marks to lit opaque surfaces.
+// Adds the forward-shaded solids, background, blended surfaces, resolve and shadow page marks to lit opaque
+// surfaces.
 void addRest(PassList& passes, const FrameInputs& inputs, FrameImages& images, ImageRef lit) {
-    addApart(passes, inputs, images, lit);
+    addForwardShaded(passes, inputs, images, lit);
     addBackground(passes, inputs, images.depth, lit);
     addTransparent(passes, inputs, images.depth, lit);
     images.lit_samples = lit;
@@ -230,7 +232,7 @@ void addCleared(PassList& passes, const FrameInputs& inputs, FrameImages& images
     const ImageRef lit = sampledImage(passes, inputs, "lit", inputs.lit_format);
     passes.draw("clear").color(lit, Load::clear).depth(images.depth, Load::clear).record([](VkCommandBuffer) {
     });
-    addDepthOfApart(passes, inputs, images);
+    addForwardShadedDepth(passes, inputs, images);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     addRest(passes, inputs, images, lit);
 }
@@ -263,7 +265,7 @@ FrameImages addDeferred(PassList& passes, const FrameInputs& inputs) {
         images.gbuffer[i] = sampledImage(passes, inputs, gbufferAttachmentNames[i], format);
     }
     addGBuffer(passes, inputs, images, false);
-    addDepthOfApart(passes, inputs, images);
+    addForwardShadedDepth(passes, inputs, images);
     inputs.lists.addPasses(passes, inputs.pipelines, inputs.variant, inputs.frame_set, images.depth);
     const FurtherGroups further = addGroups(passes, inputs, images);
     addTiles(passes, inputs, images);
@@ -296,7 +298,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
     // The frame's own G-buffer stores geometric normals only if shadows need them.
     if (stored && std::ranges::find(request.modes, Channel::geometric_normal) != request.modes.end()) {
         addGBuffer(passes, inputs, frame, true);
-        addDepthOfApart(passes, inputs, frame);
+        addForwardShadedDepth(passes, inputs, frame);
     }
     FrameImages shaded = forLighting(frame);
     shaded.tiles = nullptr;  // one variant draws a channel
@@ -315,7 +317,7 @@ std::vector<CapturedImage> addDeferredCapture(PassList& passes, const FrameInput
                                 last);
         else
             pass.record([](VkCommandBuffer) {});
-        addApartCapture(passes, inputs, frame, group, images);
+        addForwardShadedCapture(passes, inputs, frame, group, images);
         addTransparentCapture(passes, inputs, frame.depth, images);
     }
     return images;

@@ -141,7 +141,7 @@ PreparedView::PreparedView(Device& device, SharedResources& shared, const SceneV
       posing(shared.posings.at(scene.pose, settings.skinning, settings.skin_normals, shared.pipelines)),
       buffers(
           device, shared.uploader, shared.layouts, {scene.view, draws, lights},
-          {{listsOf(settings.assign), kernelOf(settings.light_kernel, device), !draws.seenThrough().empty()},
+          {{listsOf(settings.assign), kernelOf(settings.light_kernel, device), !draws.transparent().empty()},
            objectPixelLights(settings),
            readsSpecularAlbedo(lights, settings) && settings.specular_albedo == SpecularAlbedo::table,
            (scene.needs.layers & gpu::LAYER_SHEEN) != 0,

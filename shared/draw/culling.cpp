@@ -39,7 +39,7 @@ gpu::CulledItem culledItem(const DrawItem& item, const gpu::Draw& draw, const Vi
 std::uint32_t togetherFrom(const DrawList& draws, std::size_t i) {
     std::size_t end = i + 1;
     if (draws.items[i].range.meshlet_count != 1) return 1;
-    while (end < draws.solid && isNextInstance(draws.items[end - 1], draws.items[end]) &&
+    while (end < draws.solid_count && isNextInstance(draws.items[end - 1], draws.items[end]) &&
            draws.items[end].variant == draws.items[i].variant)
         ++end;
     return static_cast<std::uint32_t>(end - i);
@@ -59,7 +59,7 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
     const DeviceCosts& costs = device.profile().costs;
     std::uint32_t to_come = 0;  // remaining instances of the current draw
     bool whole = false;         // the item is one of them
-    for (std::uint32_t i = 0; i < draws_.solid; ++i) {
+    for (std::uint32_t i = 0; i < draws_.solid_count; ++i) {
         DrawItem& item = draws_.items[i];
         if (item.box >= 0) continue;
         const PrimitiveRange& range = item.range;

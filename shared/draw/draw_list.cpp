@@ -143,14 +143,14 @@ void add(DrawList& list, DrawItem item, const PlacedPrimitive& placed, const glm
 void sort(DrawList& list) {
     std::stable_sort(list.items.begin(), list.items.end(), [](const DrawItem& a, const DrawItem& b) {
         const auto key = [](const DrawItem& i) {
-            return std::tie(i.apart, i.masked, i.distance, i.variant, i.range.material, i.range.first_index,
-                            i.mirrored);
+            return std::tie(i.forward_shaded, i.masked, i.distance, i.variant, i.range.material,
+                            i.range.first_index, i.mirrored);
         };
         return key(a) < key(b);
     });
-    list.solid = list.items.size();
-    list.stored = static_cast<std::size_t>(
-        std::ranges::count_if(list.items, [](const DrawItem& item) { return !item.apart; }));
+    list.solid_count = list.items.size();
+    list.stored_count = static_cast<std::size_t>(
+        std::ranges::count_if(list.items, [](const DrawItem& item) { return !item.forward_shaded; }));
 }
 
 // Renumbers the draws in the order of the items: instances of one draw call need consecutive indices.
@@ -170,14 +170,14 @@ void number(DrawList& list) {
     list.draws = std::move(draws);
 }
 
-// `seen_through`: in scene order.
-void addSeenThrough(DrawList& list, std::vector<DrawItem> seen_through, Transparency transparency) {
-    const auto first = std::ranges::stable_partition(seen_through, &DrawItem::transmissive).begin();
-    std::stable_sort(seen_through.begin(), first,
+// `transparent_items`: in scene order.
+void addTransparentItems(DrawList& list, std::vector<DrawItem> transparent_items, Transparency transparency) {
+    const auto first = std::ranges::stable_partition(transparent_items, &DrawItem::transmissive).begin();
+    std::stable_sort(transparent_items.begin(), first,
                      [](const DrawItem& a, const DrawItem& b) { return a.depth < b.depth; });
-    list.items.insert(list.items.end(), seen_through.begin(), first);
-    list.transmitting = static_cast<std::size_t>(first - seen_through.begin());
-    std::vector<DrawItem> blended(first, seen_through.end());
+    list.items.insert(list.items.end(), transparent_items.begin(), first);
+    list.transmissive_count = static_cast<std::size_t>(first - transparent_items.begin());
+    std::vector<DrawItem> blended(first, transparent_items.end());
     const bool sorts = transparency == Transparency::sorted;
     if (sorts) std::ranges::stable_sort(blended, std::greater{}, &DrawItem::depth);
     // The image does not depend on this order, but near to far is fast: fragments beyond a full list are
@@ -265,7 +265,7 @@ glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye) {
 }
 
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
-                      const View& view, Transparency transparency, bool layers_apart) {
+                      const View& view, Transparency transparency, bool forward_shades_layers) {
     DrawList list;
     const glm::dmat4 clipFromWorld = view.clipFromWorld();
     std::uint32_t blendedTriangles = 0;
@@ -285,7 +285,8 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
             continue;
         }
         DrawItem item = itemOf(placed, materials);
-        item.apart = layers_apart && isSolid(item) && item.variant.get(gpu::FEATURE_layers) != 0;
+        item.forward_shaded =
+            forward_shades_layers && isSolid(item) && item.variant.get(gpu::FEATURE_layers) != 0;
         item.triangle = triangle;
         item.instance = i;
         item.scale = static_cast<float>(lengthScale(instance));
@@ -302,10 +303,10 @@ DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Material
     }
     const auto first = std::stable_partition(list.items.begin(), list.items.end(),
                                              [](const DrawItem& item) { return isSolid(item); });
-    std::vector<DrawItem> seen_through(first, list.items.end());
+    std::vector<DrawItem> transparent_items(first, list.items.end());
     list.items.erase(first, list.items.end());
     sort(list);
-    addSeenThrough(list, std::move(seen_through), transparency);
+    addTransparentItems(list, std::move(transparent_items), transparency);
     number(list);
     if (transparency == Transparency::triangles) sortTriangles(list, pose, geometry, view);
     return list;

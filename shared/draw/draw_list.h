@@ -50,9 +50,9 @@ struct DrawItem {
     bool mirrored = false;                  // the transform reverses the winding of front faces
     bool masked = false;
     bool blended = false;
-    bool transmissive = false;  // drawn between opaque and blended surfaces
-    float scale = 1;            // lengthScale()
-    bool apart = false;         // the deferred path draws it after lighting
+    bool transmissive = false;    // drawn between opaque and blended surfaces
+    float scale = 1;              // lengthScale()
+    bool forward_shaded = false;  // by the deferred path, after lighting
     Sides sides = Sides::of_material;
     int distance = 0;  // of the farthest corner, quantized; a sort key
     ViewDepths depths;
@@ -63,23 +63,23 @@ struct DrawItem {
 
 struct DrawList {
     std::vector<gpu::Draw> draws;
-    std::vector<DrawItem> items;   // solids, transmissive ones, then blended ones
-    std::size_t solid = 0;         // number of solids
-    std::size_t stored = 0;        // number of solids before those that are drawn apart
-    std::size_t transmitting = 0;  // number of transmissive items
+    std::vector<DrawItem> items;         // solids, transmissive ones, then blended ones
+    std::size_t solid_count = 0;         // number of solids
+    std::size_t stored_count = 0;        // number of solids before those that are forward-shaded
+    std::size_t transmissive_count = 0;  // number of transmissive items
     std::vector<IndexRange> runs;
     // Transparency::triangles: blended triangles, sorted; else empty.
     std::vector<std::uint32_t> sorted_indices;
     std::vector<SortedRange> sorted_runs;
     std::uint32_t culled = 0;     // number of culled instances
     std::uint64_t triangles = 0;  // triangles in view; in a caster list, drawn triangles
-    std::span<const DrawItem> solids() const { return std::span(items).first(solid); }
-    // The deferred path stores the former in its G-buffer and draws the latter after lighting.
-    std::span<const DrawItem> storedSolids() const { return std::span(items).first(stored); }
-    std::span<const DrawItem> apartSolids() const { return solids().subspan(stored); }
-    std::span<const DrawItem> transmissive() const { return seenThrough().first(transmitting); }
-    std::span<const DrawItem> blended() const { return seenThrough().subspan(transmitting); }
-    std::span<const DrawItem> seenThrough() const { return std::span(items).subspan(solid); }
+    std::span<const DrawItem> solids() const { return std::span(items).first(solid_count); }
+    // The deferred path stores the former in its G-buffer and shades the latter forward, after lighting.
+    std::span<const DrawItem> storedSolids() const { return std::span(items).first(stored_count); }
+    std::span<const DrawItem> forwardShadedSolids() const { return solids().subspan(stored_count); }
+    std::span<const DrawItem> transmissive() const { return transparent().first(transmissive_count); }
+    std::span<const DrawItem> blended() const { return transparent().subspan(transmissive_count); }
+    std::span<const DrawItem> transparent() const { return std::span(items).subspan(solid_count); }
 };
 
 // Whether one draw call can cover `item` and `next` as instances, if both use the same indices and one
@@ -102,10 +102,10 @@ glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye);
 //  - list: near to far, which saves work in the fragment lists
 //  - off: none, and no transmissive ones
 //  - others: in scene order
-// `layers_apart`: solids whose materials have layers come after all others.
+// `forward_shades_layers`: solids whose materials have layers come after all others.
 DrawList makeDrawList(const Pose& pose, const Geometry& geometry, const Materials& materials,
                       const View& view, Transparency transparency = Transparency::sorted,
-                      bool layers_apart = false);
+                      bool forward_shades_layers = false);
 
 // A box in a clip space where w is 1 everywhere.
 struct ClipBox {

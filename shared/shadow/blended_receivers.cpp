@@ -36,7 +36,7 @@ void eachSeen(const BlendedReceivers& blended, const Visit& visit) {
     const std::array sides{rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
                            rows[3] - rows[1], rows[3] - rows[2], rows[2]};
     std::vector<glm::dvec3> polygon, spare;
-    for (const DrawItem& item : blended.draws.seenThrough()) {
+    for (const DrawItem& item : blended.draws.transparent()) {
         if (item.sides == Sides::back) continue;  // front faces, in the same list, have the same triangles
         const PlacedTriangles of =
             blended.geometry.triangles(blended.pose, blended.pose.instances[item.instance]);

@@ -162,7 +162,7 @@ gpu::BlendedConstants blendedRange(const DrawList& draws, const View& view) {
 
 void checkLightsOfBlended(const FrameInputs& inputs) {
     const gpu::uint max = inputs.entries_per_draw;
-    if (inputs.draws.seenThrough().empty() || inputs.longest_list <= max) return;
+    if (inputs.draws.transparent().empty() || inputs.longest_list <= max) return;
     throw std::runtime_error(fmt::format(
         "blended surfaces and glass: a light list has {} entries, but a draw on {} reads up to {}; use "
         "--assign clustered or tiled, --light-cutoff, or --transparency off",
@@ -199,7 +199,7 @@ void addTransparentCapture(PassList& passes, const FrameInputs& inputs, ImageRef
     const ImageRef drawn = shown ? lit->image : ImageRef{};
     addTransmissionCapture(passes, inputs, depth, drawn, images, static_cast<std::size_t>(first));
     addCaptureResolve(passes, inputs, images, static_cast<std::size_t>(first));
-    if (!shown || inputs.draws.seenThrough().empty()) return;
+    if (!shown || inputs.draws.transparent().empty()) return;
     addTransparent(passes, inputs, depth, drawn);
     const auto opaque = findLit();
     CapturedImage blended = *opaque;
