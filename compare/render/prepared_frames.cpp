@@ -45,7 +45,7 @@ double PreparedFrames::recordMs(std::size_t i) const {
 }
 
 double PreparedFrames::objectListsMs(std::size_t i) const {
-    return state_->frames.at(i)->view.buffers.objects().chosenInMs();
+    return state_->frames.at(i)->view.buffers.objects().selectionMs();
 }
 
 void PreparedFrames::warmUp(std::span<const std::size_t> which) {

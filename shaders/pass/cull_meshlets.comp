@@ -92,15 +92,15 @@ void main() {
         }
         if (shows) {
             before += uint(bitCount(shown[lane / 32u] & bitsBefore(lane)));
-            UintArray chosen = UintArray(constants.chosen);
-            uint at = part.place + 3u * before;
-            chosen.at[at] = corners.x;
-            chosen.at[at + 1u] = corners.y;
-            chosen.at[at + 2u] = corners.z;
+            UintArray visible = UintArray(constants.visible_indices);
+            uint at = part.first_index + 3u * before;
+            visible.at[at] = corners.x;
+            visible.at[at + 1u] = corners.y;
+            visible.at[at + 2u] = corners.z;
         }
         barrier();
     }
     if (lane == 0u)
         IndirectArray(constants.draws).at[part.command] =
-            IndirectDraw(3u * written, 1u, part.place, item.first_vertex, item.draw);
+            IndirectDraw(3u * written, 1u, part.first_index, item.first_vertex, item.draw);
 }

@@ -18,9 +18,9 @@ layout(location = 3) out vec4 out_3;
 
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
-    int sample_number = int(feature_captures >> SAMPLE_IMAGES);
-    if (on(feature_captures & 1)) out_0 = texelFetch(image_0, p, sample_number);
-    if (on(feature_captures & 2)) out_1 = texelFetch(image_1, p, sample_number);
-    if (on(feature_captures & 4)) out_2 = texelFetch(image_2, p, sample_number);
-    if (on(feature_captures & 8)) out_3 = texelFetch(image_3, p, sample_number);
+    int sample_index = int(feature_captures >> SAMPLE_IMAGES);
+    if (on(feature_captures & 1)) out_0 = texelFetch(image_0, p, sample_index);
+    if (on(feature_captures & 2)) out_1 = texelFetch(image_1, p, sample_index);
+    if (on(feature_captures & 4)) out_2 = texelFetch(image_2, p, sample_index);
+    if (on(feature_captures & 8)) out_3 = texelFetch(image_3, p, sample_index);
 }

@@ -42,8 +42,8 @@ struct CulledPart {
     uint item;
     uint first;  // index into the order of meshlets
     uint meshlets;
-    uint place;    // offset of its first visible index
-    uint command;  // index of its draw
+    uint first_index;  // offset of its first visible index
+    uint command;      // index of its draw
 };
 
 // VkDrawIndexedIndirectCommand.
@@ -57,14 +57,14 @@ struct IndirectDraw {
 
 // Push constants. An address is (low word, high word).
 struct CullingConstants {
-    uvec2 positions;  // vec3[], object, m
-    uvec2 indices;    // uint[]: three per triangle, relative to CulledItem::first_vertex
-    uvec2 meshlets;   // CulledMeshlet[]
-    uvec2 items;      // CulledItem[]
-    uvec2 parts;      // CulledPart[part_count]
-    uvec2 order;      // uint[]: meshlet indices
-    uvec2 chosen;     // uint[]: vertex indices of the triangles that may be visible
-    uvec2 draws;      // IndirectDraw[]
+    uvec2 positions;        // vec3[], object, m
+    uvec2 indices;          // uint[]: three per triangle, relative to CulledItem::first_vertex
+    uvec2 meshlets;         // CulledMeshlet[]
+    uvec2 items;            // CulledItem[]
+    uvec2 parts;            // CulledPart[part_count]
+    uvec2 order;            // uint[]: meshlet indices
+    uvec2 visible_indices;  // uint[]: vertex indices of the triangles that may be visible
+    uvec2 draws;            // IndirectDraw[]
     uint part_count;
     uint samples;          // per pixel: 1, 4 or 8
     vec2 half_size;        // of the image, pixels

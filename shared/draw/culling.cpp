@@ -87,7 +87,7 @@ Culling::Culling(Device& device, Pipelines& pipelines, const Layouts& layouts, c
         if (computes && !whole)
             addCulled(made, culledItem(item, draws_.draws[item.draw], made.shown, oneSided));
         if (!whole) slot += range.index_count;
-        item.chosen = !whole;
+        item.uses_visible_indices = !whole;
         item.first_run = made.first_part;
         item.runs = made.parts;
         items_.push_back(made);
@@ -132,9 +132,9 @@ void Culling::runOnGpu() {
     run();
     compute_->runOnce(name);
     // Culling of a view is deterministic, so these counts stay valid.
-    const std::vector<gpu::IndirectDraw> chosen = compute_->readDraws();
+    const std::vector<gpu::IndirectDraw> commands = compute_->readDraws();
     for (const gpu::CulledPart& part : culled_parts_)
-        draws_.runs[part.command] = {chosen[part.command].first_index, chosen[part.command].index_count};
+        draws_.runs[part.command] = {commands[part.command].first_index, commands[part.command].index_count};
 }
 
 // Sorts near to far by the centres of the meshlets' boxes, so that hidden fragments fail the depth test
@@ -153,10 +153,10 @@ void Culling::order(const Item& item) {
         sorted[k] = {glm::dot(item.depth, glm::dvec4(middleOf(geometry_.meshlet(meshlet)), 1)), meshlet};
     }
     std::sort(sorted.begin(), sorted.end());
-    std::uint32_t slot = item.place;
+    std::uint32_t slot = item.first_index;
     for (std::uint32_t p = item.first_part; p < item.first_part + item.parts; ++p) {
         Part& part = parts_[p];
-        part.place = slot;
+        part.first_index = slot;
         for (std::uint32_t k = part.first; k < part.first + part.meshlets; ++k) {
             order_[k] = sorted[k - item.first].meshlet;
             slot += geometry_.meshlet(order_[k]).index_count;
@@ -164,11 +164,11 @@ void Culling::order(const Item& item) {
     }
 }
 
-void Culling::choose(std::size_t part, std::uint32_t* indices) {
+void Culling::selectVisible(std::size_t part, std::uint32_t* indices) {
     const Part& of = parts_[part];
     const VisibleMeshlets& shown = items_[of.item].shown;
     const MeshletTriangles& triangles = geometry_.meshletTriangles();
-    std::uint32_t* next = indices + of.place;
+    std::uint32_t* next = indices + of.first_index;
     for (std::uint32_t k = of.first; k < of.first + of.meshlets; ++k) {
         const Meshlet& meshlet = geometry_.meshlet(order_[k]);
         const MeshletTriangles::Entry& entry = triangles[order_[k]];
@@ -186,7 +186,7 @@ void Culling::choose(std::size_t part, std::uint32_t* indices) {
         for (TriangleSet left = set; left != 0; left &= left - 1, next += 3)
             std::memcpy(next, all.data() + 3 * std::countr_zero(left), 3 * sizeof(std::uint32_t));
     }
-    draws_.runs[part] = {of.place, static_cast<std::uint32_t>(next - (indices + of.place))};
+    draws_.runs[part] = {of.first_index, static_cast<std::uint32_t>(next - (indices + of.first_index))};
 }
 
 void Culling::fillGaps(const Instances& instances) {
@@ -206,10 +206,10 @@ double Culling::run() {
     auto* const indices = static_cast<std::uint32_t*>(indices_.mapped());
     tbb::parallel_for(std::size_t{0}, items_.size(), [&](std::size_t i) { order(items_[i]); });
     tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
-        if (!compute_ || items_[parts_[i].item].whole) choose(i, indices);
+        if (!compute_ || items_[parts_[i].item].whole) selectVisible(i, indices);
     });
     if (compute_) {
-        for (gpu::CulledPart& part : culled_parts_) part.place = parts_[part.command].place;
+        for (gpu::CulledPart& part : culled_parts_) part.first_index = parts_[part.command].first_index;
         std::ranges::copy(culled_parts_, compute_->parts().begin());
         std::ranges::copy(order_, compute_->order().begin());
     }
@@ -226,7 +226,7 @@ void Culling::read(PassList& passes, Pass& pass) const {
     if (compute_) compute_->read(passes, pass);
 }
 
-std::vector<std::uint32_t> Culling::chosenIndices() const {
+std::vector<std::uint32_t> Culling::visibleIndices() const {
     if (compute_) return compute_->readIndices();
     const auto* const first = static_cast<const std::uint32_t*>(indices_.mapped());
     return {first, first + indices_.size() / sizeof(std::uint32_t)};
@@ -234,7 +234,7 @@ std::vector<std::uint32_t> Culling::chosenIndices() const {
 
 DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const Culling& culling) {
     DrawnCounts counts;
-    const std::vector<std::uint32_t> chosen = culling.chosenIndices();
+    const std::vector<std::uint32_t> visible = culling.visibleIndices();
     std::vector<std::uint32_t> used;
     const DrawItem* last = nullptr;
     for (const DrawItem& item : draws.items) {
@@ -247,14 +247,14 @@ DrawnCounts drawnCounts(const DrawList& draws, const Geometry& geometry, const C
             continue;
         }
         ++counts.instances;
-        const bool together = last != nullptr && !item.chosen && !item.blended &&
+        const bool together = last != nullptr && !item.uses_visible_indices && !item.blended &&
                               isNextInstance(*last, item) && last->variant == item.variant;
         if (!together) counts.draws += std::max<std::uint64_t>(drawn, 1);
         last = &item;
         used.clear();
-        if (item.chosen)
+        if (item.uses_visible_indices)
             for (const IndexRange& run : runs) {
-                const auto of = std::span(chosen).subspan(run.first, run.count);
+                const auto of = std::span(visible).subspan(run.first, run.count);
                 used.insert(used.end(), of.begin(), of.end());
             }
         else

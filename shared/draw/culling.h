@@ -45,13 +45,13 @@ public:
     void read(PassList& passes, Pass& pass) const;
 
     bool any() const { return !parts_.empty(); }
-    // Index buffer of draws with DrawItem::chosen.
+    // Index buffer of draws with DrawItem::uses_visible_indices.
     VkBuffer indices() const { return compute_ ? compute_->indices() : indices_.handle(); }
-    // An indirect draw for each of DrawList::runs, used by items with `chosen`. Null if the CPU culls;
+    // An indirect draw for each of DrawList::runs, used by these items. Null if the CPU culls;
     // DrawList::runs then has the index ranges.
     VkBuffer indirectDraws() const { return compute_ ? compute_->draws() : VK_NULL_HANDLE; }
-    // Indices that the index ranges of chosen items refer to. From the GPU, its last result is read back.
-    std::vector<std::uint32_t> chosenIndices() const;
+    // Indices that the index ranges of these items refer to. From the GPU, its last result is read back.
+    std::vector<std::uint32_t> visibleIndices() const;
     std::uint64_t bytes() const { return any() ? indices_.size() + (compute_ ? compute_->bytes() : 0) : 0; }
 
 private:
@@ -62,8 +62,8 @@ private:
         std::uint32_t first_meshlet, meshlets;
         std::uint32_t first;  // offset in order_ of its `clusters` entries
         std::uint32_t first_part, parts;
-        std::uint32_t place;  // offset of its first index
-        bool whole;           // one meshlet, drawn from the scene's indices or not at all
+        std::uint32_t first_index;  // offset of its first index
+        bool whole;                 // one meshlet, drawn from the scene's indices or not at all
     };
     // Instances that one draw may cover. Up to `gap` culled instances between two visible ones are drawn,
     // because splitting the draw would cost more.
@@ -74,7 +74,7 @@ private:
     // Consecutive meshlets of one item in order_, which share one index range.
     struct Part {
         std::uint32_t item, first, meshlets;
-        std::uint32_t place = 0;  // offset of its first index
+        std::uint32_t first_index = 0;  // offset of its first index
     };
     void addParts(const Item& item);
     void addCulled(const Item& item, const gpu::CulledItem& culled);
@@ -82,7 +82,7 @@ private:
     void runOnHost(Device& device, std::uint32_t indices);  // at most so many
     void runOnGpu();
     void order(const Item& item);
-    void choose(std::size_t part, std::uint32_t* indices);
+    void selectVisible(std::size_t part, std::uint32_t* indices);
     void fillGaps(const Instances& instances);
 
     const Geometry& geometry_;

@@ -255,7 +255,7 @@ bool addRuns(DrawList& list, DrawItem& item, std::span<const Meshlet> meshlets, 
 bool isNextInstance(const DrawItem& item, const DrawItem& next) {
     return next.draw == item.draw + 1 && next.range.first_index == item.range.first_index &&
            next.range.material == item.range.material && next.mirrored == item.mirrored && item.box < 0 &&
-           next.box < 0 && next.sides == item.sides && next.chosen == item.chosen;
+           next.box < 0 && next.sides == item.sides && next.uses_visible_indices == item.uses_visible_indices;
 }
 
 glm::dmat4 fromEye(const PlacedPrimitive& placed, const glm::dvec3& eye) {

@@ -42,7 +42,7 @@ enum class Sides {
 struct DrawItem {
     PrimitiveRange range;
     std::uint32_t first_run = 0, runs = 0;  // into DrawList::runs; 0: the whole range is drawn
-    bool chosen = false;                    // runs index the result of Culling, and may be empty
+    bool uses_visible_indices = false;      // runs index the result of Culling, and may be empty
     std::uint32_t draw = 0;                 // into DrawList::draws
     std::uint32_t instance = 0;             // into Pose::instances
     int box = -1;                           // into Pose::boxes; -1: not posed

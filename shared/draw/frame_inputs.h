@@ -32,8 +32,8 @@ struct FrameInputs {
     const GpuLights& lights;
     VkBuffer draw_buffer;                      // Draw[draws.draws]
     VkBuffer sorted_indices = VK_NULL_HANDLE;  // DrawList::sorted_indices; null if empty
-    const Culling* culling = nullptr;          // of draws with DrawItem::chosen; null without them
-    VkDescriptorSet frame_set;                 // SET_FRAME
+    const Culling* culling = nullptr;  // of draws with DrawItem::uses_visible_indices; null without them
+    VkDescriptorSet frame_set;         // SET_FRAME
     const Placeholders& placeholders;
     LightLists& lists;
     Variant variant;  // features of scene and view: light types, emission, projection, G-buffer encoding

@@ -37,7 +37,7 @@ ObjectLightBuffers::ObjectLightBuffers(Device& device, Uploader& uploader, const
         std::vector<ObjectPosition> places(draws.draws.size());
         for (const DrawItem& item : draws.items) places[item.draw] = placeOf(item, draws.draws[item.draw]);
         lists = objectLightLists(lights, places, *pixels);
-        chosen_in_ms_ =
+        selection_ms_ =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
     features_ = lists.features;

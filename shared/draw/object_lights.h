@@ -21,13 +21,13 @@ public:
     void bind(DescriptorSets& sets) const;                // BINDING_OBJECT_LIST, BINDING_OBJECTS
     std::uint32_t features() const { return features_; }  // FEATURE_object_lights
     std::uint32_t longest() const { return longest_; }    // local lights per pixel of one draw
-    double chosenInMs() const { return chosen_in_ms_; }   // CPU time of the selection
+    double selectionMs() const { return selection_ms_; }  // CPU time of the selection
     std::uint64_t bytes() const { return entries_.size() + objects_.size(); }
 
 private:
     GpuBuffer entries_, objects_;
     std::uint32_t features_ = 0, longest_ = 0;
-    double chosen_in_ms_ = 0;
+    double selection_ms_ = 0;
 };
 
 }  // namespace diptych

@@ -139,10 +139,10 @@ public:
                 inputs_.geometry.bindVertices(commands_);
             posed_ = posed;
         }
-        if (item.chosen != chosen_) {
-            inputs_.geometry.bindIndices(commands_,
-                                         item.chosen ? inputs_.culling->indices() : VK_NULL_HANDLE);
-            chosen_ = item.chosen;
+        if (item.uses_visible_indices != binds_visible_indices_) {
+            inputs_.geometry.bindIndices(
+                commands_, item.uses_visible_indices ? inputs_.culling->indices() : VK_NULL_HANDLE);
+            binds_visible_indices_ = item.uses_visible_indices;
         }
         const VkCullModeFlags culled = culledOf(source_, item);
         if (last_ == nullptr || culled != culled_) vkCmdSetCullMode(commands_, culled);
@@ -188,7 +188,7 @@ public:
 private:
     bool drawsAs(std::size_t i, std::size_t next) const {
         const DrawItem &item = source_.items[i], &other = source_.items[next];
-        return other.chosen &&
+        return other.uses_visible_indices &&
                other.first_run == source_.items[next - 1].first_run + source_.items[next - 1].runs &&
                pipelines_[next] == pipelines_[i] && other.range.material == item.range.material &&
                other.mirrored == item.mirrored && culledOf(source_, other) == culledOf(source_, item) &&
@@ -205,8 +205,8 @@ private:
     std::size_t taken_ = 0;
     gpu::DrawConstants constants_{};
     VkCullModeFlags culled_ = 0;
-    bool posed_ = false;   // deformed vertices are bound
-    bool chosen_ = false;  // index buffer of Culling is bound
+    bool posed_ = false;                  // deformed vertices are bound
+    bool binds_visible_indices_ = false;  // index buffer of Culling is bound
 };
 
 // Index ranges that a source draws of item i; some may be empty.
@@ -252,7 +252,7 @@ void recordItems(VkCommandBuffer commands, const FrameInputs& inputs, const Draw
         inputs.culling != nullptr ? inputs.culling->indirectDraws() : VkBuffer{VK_NULL_HANDLE};
     std::uint32_t instances = 1;
     for (std::size_t i = 0; i < pipelines.size(); i += instances) {
-        if (source.items[i].chosen && indirect != VK_NULL_HANDLE) {
+        if (source.items[i].uses_visible_indices && indirect != VK_NULL_HANDLE) {
             recorder.take(i);
             const std::size_t same = recorder.sameFrom(i);
             recorder.drawIndirect(indirect, same);

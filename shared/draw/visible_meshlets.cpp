@@ -26,21 +26,21 @@ constexpr double facingError = 16.0 / (1 << 24);
 
 // Whether an interval contains the sample at `place`, in pixels from a pixel's left or upper edge, of any
 // pixel.
-bool holdsSample(double low, double high, double place) {
-    return std::floor(high - place) >= std::ceil(low - place);
+bool holdsSample(double low, double high, double location) {
+    return std::floor(high - location) >= std::ceil(low - location);
 }
 
 bool holdsSample(double low, double high, int samples, int shift) {
     if (samples <= 1) return holdsSample(low, high, 0.5);
     for (int i = 0; i < samples; ++i) {
-        unsigned place = 0;
+        unsigned location = 0;
         if (samples == 4)
-            place = gpu::SAMPLE_LOCATIONS_4 >> (8 * i);
+            location = gpu::SAMPLE_LOCATIONS_4 >> (8 * i);
         else if (samples == 8)
-            place = (i < 4 ? gpu::SAMPLE_LOCATIONS_8_LOW : gpu::SAMPLE_LOCATIONS_8_HIGH) >> (8 * (i % 4));
+            location = (i < 4 ? gpu::SAMPLE_LOCATIONS_8_LOW : gpu::SAMPLE_LOCATIONS_8_HIGH) >> (8 * (i % 4));
         else
             return true;
-        if (holdsSample(low, high, ((place >> shift) & 15u) / 16.0)) return true;
+        if (holdsSample(low, high, ((location >> shift) & 15u) / 16.0)) return true;
     }
     return false;
 }

@@ -83,12 +83,12 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
     const Culling culling(on.device, on.pipelines, on.layouts, geometry,
                           {pose, round.view, round.samples, true}, list);
     EXPECT_NE(culling.indirectDraws(), VkBuffer{VK_NULL_HANDLE});
-    const std::vector<std::uint32_t> indices = culling.chosenIndices();
+    const std::vector<std::uint32_t> indices = culling.visibleIndices();
     const DrawItem& item = list.items[0];
-    std::vector<std::array<std::uint32_t, 3>> chosen;
+    std::vector<std::array<std::uint32_t, 3>> visible;
     for (const IndexRange& run : std::span(list.runs).subspan(item.first_run, item.runs))
         for (std::uint32_t i = 0; i < run.count; i += 3)
-            chosen.push_back(
+            visible.push_back(
                 {indices[run.first + i], indices[run.first + i + 1], indices[run.first + i + 2]});
 
     const SampleGrid grid{round.view.width, round.view.height, round.samples,
@@ -115,7 +115,7 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
         for (std::size_t i = 0; i < of.size(); i += 3) {
             const std::array<std::uint32_t, 3> numbers{of[i], of[i + 1], of[i + 2]};
             // Two consecutive triangles with the same corners are indistinguishable.
-            const bool isKept = next < chosen.size() && chosen[next] == numbers;
+            const bool isKept = next < visible.size() && visible[next] == numbers;
             next += isKept;
             std::array<glm::vec3, 3> corners;
             for (std::size_t c = 0; c < 3; ++c) corners[c] = round.mesh.positions[numbers[c]];
@@ -130,7 +130,7 @@ ChosenCounts expectTheKernelKeepsWhatShows(const KernelRound& round, const std::
             EXPECT_TRUE(isKept || !shows) << name << ": cluster " << number << ", triangle " << i / 3;
         }
     }
-    EXPECT_EQ(next, chosen.size()) << name << ": of another order, or none of the mesh";
+    EXPECT_EQ(next, visible.size()) << name << ": of another order, or none of the mesh";
     return counts;
 }
 

@@ -24,22 +24,22 @@ vec3 slackOf(const CulledItem item) { return item.error.xyz + vec3(item.error.w)
 // item.error bounds the products of two shaders; one shader's products and this sum round no more often.
 bool isBeyondView(const CulledItem item, const vec3 low, const vec3 high) {
     mat4 rows = transpose(item.clip_from_object);
-    vec3 slack = slackOf(item), middle = 0.5 * (low + high), reach = 0.5 * (high - low);
+    vec3 slack = slackOf(item), middle = 0.5 * (low + high), half_extent = 0.5 * (high - low);
     vec4 sides[6] = vec4[6](rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1],
                             rows[3] - rows[2], rows[2]);
     float slacks[6] = float[6](slack.x, slack.x, slack.y, slack.y, slack.z, item.error.z);
     bool beyond = false;
     for (int i = 0; i < 6; ++i)
         beyond = beyond ||
-                 dot(sides[i], vec4(middle, 1.0)) + dot(abs(sides[i].xyz), reach) < -slacks[i];
+                 dot(sides[i], vec4(middle, 1.0)) + dot(abs(sides[i].xyz), half_extent) < -slacks[i];
     return beyond;
 }
 
 // Location of sample i from the pixel's upper left corner, pixels.
 vec2 culledSampleLocation(const uint samples, const uint i) {
     uint low = samples == 4u ? SAMPLE_LOCATIONS_4 : SAMPLE_LOCATIONS_8_LOW;
-    uint place = (i < 4u ? low : SAMPLE_LOCATIONS_8_HIGH) >> (8u * (i & 3u));
-    return samples == 1u ? vec2(0.5) : vec2(place & 15u, place >> 4 & 15u) / 16.0;
+    uint location = (i < 4u ? low : SAMPLE_LOCATIONS_8_HIGH) >> (8u * (i & 3u));
+    return samples == 1u ? vec2(0.5) : vec2(location & 15u, location >> 4 & 15u) / 16.0;
 }
 
 // Edge function from a to b, both relative to a sample; positive inside after `turn`. Also its change from
@@ -75,7 +75,7 @@ struct PixelTriangle {
     vec2 p, q, r;    // corners
     vec2 low, high;  // contain all corners with their errors
     float wide;      // largest distance of a rasterised corner from its own
-    float reach;     // width plus height of the box
+    float half_perimeter;  // width plus height of the box
     float turn;      // 1: front faces have a positive area; -1: a negative one
     bool either;     // both faces show
 };
@@ -93,7 +93,7 @@ PixelTriangle inPixels(const CulledItem item, const CulledImage image, const Cli
          down = t.y / t.w * image.half_size.y + image.half_size.y;
     c.p = vec2(across.x, down.x), c.q = vec2(across.y, down.y), c.r = vec2(across.z, down.z);
     c.low = min(c.p, min(c.q, c.r)) - off, c.high = max(c.p, max(c.q, c.r)) + off;
-    c.reach = c.high.x - c.low.x + c.high.y - c.low.y;
+    c.half_perimeter = c.high.x - c.low.x + c.high.y - c.low.y;
     c.turn = (item.sides & CULLED_MIRRORED) != 0u ? 1.0 : -1.0;
     c.either = (item.sides & CULLED_BOTH_SIDES) != 0u;
     return c;
@@ -105,7 +105,8 @@ PixelTriangle inPixels(const CulledItem item, const CulledImage image, const Cli
 bool facesAway(const PixelTriangle t) {
     vec2 to_second = t.q - t.p, to_third = t.r - t.p;
     float one = to_second.x * to_third.y, other = to_second.y * to_third.x;
-    float uncertain = 1.01 * t.wide * (2.0 * t.reach + 3.0 * t.wide) + 5e-7 * (abs(one) + abs(other));
+    float uncertain = 1.01 * t.wide * (2.0 * t.half_perimeter + 3.0 * t.wide) +
+                      5e-7 * (abs(one) + abs(other));
     return !t.either && t.turn * (one - other) < -uncertain;
 }
 
@@ -114,16 +115,16 @@ bool facesAway(const PixelTriangle t) {
 // includes float32 rounding. No branch depends on a sample's result, because all cost the same.
 bool coversSample(const PixelTriangle t, const uint samples) {
     const int few = 6;
-    float margin = 1.01 * t.wide * (2.0 * t.reach + t.wide);
+    float margin = 1.01 * t.wide * (2.0 * t.half_perimeter + t.wide);
     bool covers = false;
-    uint sample_number = 0u;
+    uint sample_index = 0u;
     do {
-        vec2 place = culledSampleLocation(samples, sample_number);
-        vec2 at = ceil(t.low - place);
-        vec2 count = max(floor(t.high - place) - at + 1.0, vec2(0.0));
+        vec2 location = culledSampleLocation(samples, sample_index);
+        vec2 at = ceil(t.low - location);
+        vec2 count = max(floor(t.high - location) - at + 1.0, vec2(0.0));
         bool large = count.x * count.y > float(few);
         covers = covers || large;
-        at += place;
+        at += location;
         vec3 pq = edgeSide(t.turn, t.p - at, t.q - at), qr = edgeSide(t.turn, t.q - at, t.r - at),
              rp = edgeSide(t.turn, t.r - at, t.p - at);
         for (int i = 0; i < few; ++i) {
@@ -134,7 +135,7 @@ bool coversSample(const PixelTriangle t, const uint samples) {
                           (t.either && all(lessThanEqual(sides, vec3(margin))));
             covers = covers || (inside && float(i) < count.x * count.y);
         }
-    } while (++sample_number < samples);
+    } while (++sample_index < samples);
     return covers;
 }
 
