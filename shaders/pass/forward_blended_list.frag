@@ -15,7 +15,8 @@ void main() {
     BlendedFragment f = blendedFragment();
     if (!isListed(p) || f.opacity == 0.0) return;
     uint pixel = listedPixel(p);
-    uint index = placeOf(pixel, fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
+    uint index =
+        indexOfFragment(pixel, fragmentKey(middleDepth(), constants.triangle + uint(gl_PrimitiveID)));
     if (index < list_of.layers) {
         fragments[index * listedPixels() + pixel] = vec4(f.radiance, f.opacity);
         return;

@@ -17,14 +17,14 @@ namespace {
 
 struct Placed {
     Channel mode;
-    CaptureIndex place;
+    CaptureIndex index;
 };
 constexpr std::array capture_indices{
 #define DIPTYCH_CAPTURE(name, image, component, value) Placed{Channel::name, {image, component}},
     CAPTURES(DIPTYCH_CAPTURE)
 #undef DIPTYCH_CAPTURE
 };
-static_assert(capture_indices.back().place.image + 1 == gpu::CAPTURE_IMAGES);
+static_assert(capture_indices.back().index.image + 1 == gpu::CAPTURE_IMAGES);
 
 }  // namespace
 
@@ -32,7 +32,7 @@ CaptureIndex captureIndex(Channel mode) {
     const auto found = std::ranges::find(capture_indices, mode, &Placed::mode);
     if (found == capture_indices.end())
         throw std::out_of_range("no capture of debug mode " + std::to_string(channelNumber(mode)));
-    return found->place;
+    return found->index;
 }
 
 std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit, std::size_t max) {
@@ -43,13 +43,13 @@ std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat
         return captureIndex(mode).image >= gpu::FIRST_LIT_IMAGE && mode != Channel::shadow_visibility;
     });
     std::vector<CaptureGroup> groups;
-    for (const auto& [mode, place] : capture_indices) {
+    for (const auto& [mode, index] : capture_indices) {
         if (std::ranges::find(modes, mode) == modes.end()) continue;
-        const gpu::uint bit = 1u << place.image;
+        const gpu::uint bit = 1u << index.image;
         // Number of images that must go into one pass: one, or all lit images at the first of them.
         const bool first_lit = (images & (bit - 1)) >> gpu::FIRST_LIT_IMAGE == 0;
         const std::size_t together =
-            place.image >= gpu::FIRST_LIT_IMAGE && first_lit ? std::min(lit_images, max) : 1;
+            index.image >= gpu::FIRST_LIT_IMAGE && first_lit ? std::min(lit_images, max) : 1;
         if (groups.empty() ||
             ((groups.back().images & bit) == 0 && groups.back().formats.size() + together > max))
             groups.emplace_back();
@@ -57,7 +57,7 @@ std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat
         group.modes.push_back(mode);
         if ((group.images & bit) != 0) continue;
         group.images |= bit;
-        group.unlit = unlit && place.image >= gpu::FIRST_LIT_IMAGE;
+        group.unlit = unlit && index.image >= gpu::FIRST_LIT_IMAGE;
         group.formats.push_back(mode == Channel::lit ? lit : VK_FORMAT_R32G32B32A32_SFLOAT);
     }
     return groups;

@@ -13,18 +13,18 @@ namespace diptych {
 namespace {
 
 // Bounding box of the item in world axes from the camera.
-ObjectPosition placeOf(const DrawItem& item, const gpu::Draw& draw) {
+ObjectPosition positionOf(const DrawItem& item, const gpu::Draw& draw) {
     const glm::dvec3 centre = (item.range.bounds_min + item.range.bounds_max) * 0.5;
     const glm::dvec3 half = (item.range.bounds_max - item.range.bounds_min) * 0.5;
-    ObjectPosition place;
-    place.centre = glm::dvec3(draw.world_from_object[3]);
+    ObjectPosition position;
+    position.centre = glm::dvec3(draw.world_from_object[3]);
     for (int axis = 0; axis < 3; ++axis) {
         const glm::dvec3 column(draw.world_from_object[axis]);
-        place.centre += column * centre[axis];
-        place.half += glm::abs(column) * half[axis];
+        position.centre += column * centre[axis];
+        position.half += glm::abs(column) * half[axis];
     }
-    place.harmonics = item.variant.get(gpu::FEATURE_lightmap_texture) == 0;
-    return place;
+    position.harmonics = item.variant.get(gpu::FEATURE_lightmap_texture) == 0;
+    return position;
 }
 
 }  // namespace
@@ -34,9 +34,10 @@ ObjectLightBuffers::ObjectLightBuffers(Device& device, Uploader& uploader, const
     ObjectLightLists lists;
     if (pixels) {
         const auto start = std::chrono::steady_clock::now();
-        std::vector<ObjectPosition> places(draws.draws.size());
-        for (const DrawItem& item : draws.items) places[item.draw] = placeOf(item, draws.draws[item.draw]);
-        lists = objectLightLists(lights, places, *pixels);
+        std::vector<ObjectPosition> positions(draws.draws.size());
+        for (const DrawItem& item : draws.items)
+            positions[item.draw] = positionOf(item, draws.draws[item.draw]);
+        lists = objectLightLists(lights, positions, *pixels);
         selection_ms_ =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }

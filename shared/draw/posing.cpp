@@ -363,8 +363,8 @@ std::shared_ptr<const Posing> Posings::at(const Pose& pose, Skinning skinning, S
             key.instances.push_back(instance);
             key.maps.push_back(tangentMapOf(materialsOf(scene, pose), scene, instance));
         }
-    std::erase_if(kept_, [](const Kept& kept) { return kept.posing.expired(); });
-    for (const Kept& kept : kept_)
+    std::erase_if(kept_, [](const CachedBuffers& kept) { return kept.posing.expired(); });
+    for (const CachedBuffers& kept : kept_)
         if (kept.key == key) return kept.posing.lock();
     auto posing = std::make_shared<const Posing>(sources_, pipelines, pose, skinning, normals);
     ++made_;

@@ -104,12 +104,12 @@ private:
         std::vector<TextureSlot> maps;  // by instance: its tangentMap()
         bool operator==(const Key&) const = default;
     };
-    struct Kept {
+    struct CachedBuffers {
         Key key;
         std::weak_ptr<const Posing> posing;
     };
     PosingSources sources_;
-    std::vector<Kept> kept_;
+    std::vector<CachedBuffers> kept_;
     std::size_t made_ = 0;
 };
 

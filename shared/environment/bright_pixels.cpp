@@ -102,7 +102,7 @@ void BrightPixels::addTo(NodeMap& map) const {
             return static_cast<int>(std::lround((at * 0.5f + 0.5f) * static_cast<float>(last)));
         };
         const int x = node(p.x), y = node(p.y);
-        const glm::vec3 d = octahedralDirection(map.placeOf(x, y));
+        const glm::vec3 d = octahedralDirection(map.positionOf(x, y));
         const float l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z), step = 2 / static_cast<float>(last);
         const Texel radiance = power / (step * step * l1 * l1 * l1);
         const bool column = x == 0 || x == last, row = y == 0 || y == last;

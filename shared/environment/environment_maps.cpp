@@ -21,7 +21,7 @@ constexpr int diffuseSide = 33, diffuseSourceSide = 64, minPyramidSide = 4;
 
 // Proportional to a node's solid angle. Edge nodes count half, because they occur twice.
 double nodeWeight(const NodeMap& map, int x, int y) {
-    const glm::dvec3 d(octahedralDirection(map.placeOf(x, y)));
+    const glm::dvec3 d(octahedralDirection(map.positionOf(x, y)));
     const double l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
     const auto edge = [&](int i) { return i == 0 || i + 1 == map.side ? 0.5 : 1.0; };
     return l1 * l1 * l1 * edge(x) * edge(y);
@@ -151,7 +151,7 @@ TruncationError truncationError(const EnvironmentMaps& maps, double window) {
     for (int y = 0; y < map.side; ++y)
         for (int x = 0; x < map.side; ++x) {
             const glm::dvec3 kept =
-                glm::max(evaluate(polynomial, octahedralDirection(map.placeOf(x, y))), glm::dvec3(0));
+                glm::max(evaluate(polynomial, octahedralDirection(map.positionOf(x, y))), glm::dvec3(0));
             const Texel& t = map.at(x, y);
             const double weight = nodeWeight(map, x, y);
             weights += weight;

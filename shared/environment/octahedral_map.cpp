@@ -114,7 +114,7 @@ OctahedralMap resampled(const LatLong& light, int side) {
     tbb::parallel_for(0, side, [&](int y) {
         for (int x = 0; x < side; ++x)
             map.at(x, y) =
-                meanOver(light, map.placeOf(x, y), 2 / static_cast<float>(side), partsOf(light, side));
+                meanOver(light, map.positionOf(x, y), 2 / static_cast<float>(side), partsOf(light, side));
     });
     map.fillBorder();
     return map;
@@ -125,7 +125,7 @@ NodeMap resampledToNodes(const LatLong& light, int side) {
     tbb::parallel_for(0, side, [&](int y) {
         for (int x = 0; x < side; ++x)
             map.at(x, y) =
-                meanOver(light, map.placeOf(x, y), 2 / static_cast<float>(side - 1), partsOf(light, side));
+                meanOver(light, map.positionOf(x, y), 2 / static_cast<float>(side - 1), partsOf(light, side));
     });
     return map;
 }
@@ -133,7 +133,7 @@ NodeMap resampledToNodes(const LatLong& light, int side) {
 NodeMap atNodes(const OctahedralMap& map, int side) {
     NodeMap nodes(side);
     for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) nodes.at(x, y) = map.bilinear(nodes.placeOf(x, y));
+        for (int x = 0; x < side; ++x) nodes.at(x, y) = map.bilinear(nodes.positionOf(x, y));
     return nodes;
 }
 

@@ -31,7 +31,7 @@ struct OctahedralMap {
         : side(s), texels(static_cast<std::size_t>(s + 2) * static_cast<std::size_t>(s + 2)) {}
     Texel& at(int x, int y) { return texels[offset(x, y)]; }
     const Texel& at(int x, int y) const { return texels[offset(x, y)]; }
-    glm::vec2 placeOf(int x, int y) const {
+    glm::vec2 positionOf(int x, int y) const {
         const float step = 2.0f / static_cast<float>(side);
         return {(static_cast<float>(x) + 0.5f) * step - 1, (static_cast<float>(y) + 0.5f) * step - 1};
     }
@@ -75,7 +75,7 @@ struct NodeMap {
         return nodes[static_cast<std::size_t>(y) * static_cast<std::size_t>(side) +
                      static_cast<std::size_t>(x)];
     }
-    glm::vec2 placeOf(int x, int y) const {
+    glm::vec2 positionOf(int x, int y) const {
         const float step = 2 / static_cast<float>(side - 1);
         return {static_cast<float>(x) * step - 1, static_cast<float>(y) * step - 1};
     }

@@ -85,7 +85,7 @@ template <class F>
 NodeMap mapOf(int side, const F& f) {
     NodeMap map(side);
     tbb::parallel_for(0, side, [&](int y) {
-        for (int x = 0; x < side; ++x) map.at(x, y) = f(octahedralDirection(map.placeOf(x, y)));
+        for (int x = 0; x < side; ++x) map.at(x, y) = f(octahedralDirection(map.positionOf(x, y)));
     });
     return map;
 }
@@ -101,7 +101,7 @@ NodeMap summed(const OctahedralMap& source, int side, const Kernel& kernel) {
     std::vector<Part> parts;
     for (int y = 0; y < source.side; ++y)
         for (int x = 0; x < source.side; ++x)
-            parts.push_back({octahedralDirection(source.placeOf(x, y)),
+            parts.push_back({octahedralDirection(source.positionOf(x, y)),
                              static_cast<float>(source.solidAngle(x, y)), source.at(x, y)});
     return mapOf(side, [&](const glm::vec3& n) {
         Texel sum{};
@@ -166,7 +166,7 @@ std::vector<BrightTexel> takeBrightTexels(OctahedralMap& map) {
     for (const Bright& bright : found) {
         Texel& t = map.at(bright.x, bright.y);
         const Texel above = t * (1 - bound / bright.brightness);
-        taken.push_back({octahedralDirection(map.placeOf(bright.x, bright.y)),
+        taken.push_back({octahedralDirection(map.positionOf(bright.x, bright.y)),
                          above * static_cast<float>(map.solidAngle(bright.x, bright.y))});
         t -= above;
     }
@@ -188,7 +188,7 @@ void addBrightTexels(NodeMap& filtered, const std::vector<BrightTexel>& texels, 
     const auto scale = static_cast<float>(alpha2 / (4 * std::numbers::pi) / (sum / points));
     tbb::parallel_for(0, filtered.side, [&](int y) {
         for (int x = 0; x < filtered.side; ++x) {
-            const glm::vec3 n = octahedralDirection(filtered.placeOf(x, y));
+            const glm::vec3 n = octahedralDirection(filtered.positionOf(x, y));
             for (const BrightTexel& texel : texels) {
                 // 1 - n.h^2 equals |n - l|^2 / 4, which avoids cancellation near the peak.
                 const glm::vec3 apart = n - texel.direction;
@@ -218,7 +218,7 @@ NodeMap irradiance(const OctahedralMap& source, int side, const std::vector<Brig
                 map.at(x, y) +=
                     texel.power *
                     (gpu::INVERSE_PI *
-                     std::max(glm::dot(octahedralDirection(map.placeOf(x, y)), texel.direction), 0.0f));
+                     std::max(glm::dot(octahedralDirection(map.positionOf(x, y)), texel.direction), 0.0f));
     return map;
 }
 

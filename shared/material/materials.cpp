@@ -140,7 +140,7 @@ SlotTexels Materials::Textures::texelsOf(const Material& material,
                                      return one_color.at({texture, slot});
                                  },
                                  [&](int a, int b) {
-                                     return image_number.at(a) == image_number.at(b) &&
+                                     return image_index.at(a) == image_index.at(b) &&
                                             sampler_of.at(a) == sampler_of.at(b);
                                  },
                                  packed});
@@ -184,7 +184,7 @@ std::shared_ptr<const Materials::Textures> Materials::upload(Device& device, Upl
         const auto [known, isNew] = oneColor.try_emplace({read.image, like});
         if (isNew) known->second = hasOneColor(scene.images[static_cast<std::size_t>(read.image)], like);
         textures->one_color[{texture, like}] = known->second;
-        textures->image_number[texture] = read.image;
+        textures->image_index[texture] = read.image;
         textures->sampler_of[texture] = samplerOf(read.sampler);
     });
     const std::vector<Use> uses = chooseImages(scene, precision, *textures);
@@ -204,7 +204,7 @@ std::vector<Materials::Use> Materials::chooseImages(const Scene& scene, TextureP
     // Image -> its first texture, because textures of one image differ only in samplers.
     std::map<int, int> firstOf;
     const auto first = [&](int texture) {
-        return firstOf.try_emplace(textures.image_number.at(texture), texture).first->second;
+        return firstOf.try_emplace(textures.image_index.at(texture), texture).first->second;
     };
     const auto upload = [&](const Use& use) {
         // A magnified alpha depends on its texture's wrap mode.
@@ -238,7 +238,7 @@ void Materials::probeColors(Device& device, const Scene& scene, TexturePrecision
             if (!use.one_color || use.srgb != srgb) continue;
             of.push_back(use.texture);
             const auto& rgba =
-                scene.images[static_cast<std::size_t>(textures.image_number.at(use.texture))].rgba;
+                scene.images[static_cast<std::size_t>(textures.image_index.at(use.texture))].rgba;
             colors.push_back({rgba[0], rgba[1], rgba[2], rgba[3]});
         }
         if (colors.empty()) continue;
@@ -252,7 +252,7 @@ void Materials::probeColors(Device& device, const Scene& scene, TexturePrecision
 void Materials::uploadInUse(Device& device, Uploader& uploader, const Scene& scene,
                             const std::vector<Use>& uses, TexturePrecision precision, Textures& textures) {
     const auto imageOf = [&](int texture) -> const TextureImage& {
-        return scene.images[static_cast<std::size_t>(textures.image_number.at(texture))];
+        return scene.images[static_cast<std::size_t>(textures.image_index.at(texture))];
     };
     std::size_t next = 0, reduced = 0;
     const auto choose = [&](tbb::flow_control& flow) {

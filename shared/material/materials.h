@@ -70,7 +70,7 @@ private:
     struct Textures {
         std::map<Use, std::size_t> image_of;                    // into images
         std::map<int, std::size_t> sampler_of;                  // texture -> index of samplers
-        std::map<int, int> image_number;                        // texture -> index of Scene::images
+        std::map<int, int> image_index;                         // texture -> index of Scene::images
         std::map<std::pair<int, std::size_t>, bool> one_color;  // by texture and readLike()
         // Colours of single-colour textures, by texture and whether sRGB.
         std::map<std::pair<int, bool>, glm::vec4> colors;

@@ -62,18 +62,18 @@ bool isMarked(std::span<const gpu::uint> marks, std::size_t page) {
 
 }  // namespace
 
-ServedPages ClipmapCache::serve(const Clipmap& clipmap, std::span<const gpu::uint> marks) {
+ResidentPages ClipmapCache::makeResident(const Clipmap& clipmap, std::span<const gpu::uint> marks) {
     if (marks.size() * 32 < clipmap.pages()) throw std::logic_error("ClipmapCache: too few marks");
     if (grid_ != clipmap.grid) held_.clear();
     grid_ = clipmap.grid;
-    ++serves_;
+    ++updates_;
 
     const std::size_t whole = clipmap.levels.size() - 1;
     std::vector<Level> marked(whole);
-    ServedPages served;
+    ResidentPages pages;
     for (std::size_t page = 0; page < clipmap.pages(); ++page) {
         if (!isMarked(marks, page)) continue;
-        ++served.requested;
+        ++pages.requested;
         const Clipmap::Place place = clipmap.placeOf(page);
         if (place.level < whole) marked[place.level].emplace(place.y, place.x);
     }
@@ -86,22 +86,22 @@ ServedPages ClipmapCache::serve(const Clipmap& clipmap, std::span<const gpu::uin
     places.push_back({whole, 0, 0});
     for (const Clipmap::Place& place : places)
         if (const auto found = held_.find(clipmap.addressOf(place)); found != held_.end())
-            found->second.needed = serves_;
-    constexpr ServedPages::Entry none{~0u, 0};
-    served.table.assign(clipmap.pages(), none);
+            found->second.needed = updates_;
+    constexpr ResidentPages::Entry none{~0u, 0};
+    pages.table.assign(clipmap.pages(), none);
     for (const Clipmap::Place& place : places) {
         const PageAddress address = clipmap.addressOf(place);
-        served.table[clipmap.numberOf(place)] = {static_cast<std::uint32_t>(served.resident.size()),
-                                                 static_cast<std::uint32_t>(place.level)};
-        served.resident.push_back({address, take(address)});
+        pages.table[clipmap.numberOf(place)] = {static_cast<std::uint32_t>(pages.resident.size()),
+                                                static_cast<std::uint32_t>(place.level)};
+        pages.resident.push_back({address, take(address)});
     }
     for (std::size_t page = clipmap.pages(); page-- > 0;) {
         const Clipmap::Place place = clipmap.placeOf(page);
-        ServedPages::Entry& entry = served.table[page];
-        if (entry.resident == none.resident) entry = served.table[clipmap.numberOf(clipmap.parentOf(place))];
-        served.fallback += isMarked(marks, page) && entry.level != place.level;
+        ResidentPages::Entry& entry = pages.table[page];
+        if (entry.resident == none.resident) entry = pages.table[clipmap.numberOf(clipmap.parentOf(place))];
+        pages.fallback += isMarked(marks, page) && entry.level != place.level;
     }
-    return served;
+    return pages;
 }
 
 // Slot of a page; assigns one if needed.
@@ -114,7 +114,7 @@ std::uint32_t ClipmapCache::take(const PageAddress& page) {
         slot = oldest->second.slot;
         held_.erase(oldest);
     }
-    held_[page] = {.slot = slot, .needed = serves_, .drawn = false};
+    held_[page] = {.slot = slot, .needed = updates_, .drawn = false};
     return slot;
 }
 

@@ -18,9 +18,9 @@ struct PageDraw {
 };
 
 // Pages of one image.
-struct ServedPages {
+struct ResidentPages {
     std::vector<PageDraw> resident;  // all pages that the image may sample, including the whole scene's
-    // Per ClipmapPage in shader order: index in `resident` of the page that serves it, and that page's
+    // Per ClipmapPage in shader order: index in `resident` of the page that it samples, and that page's
     // level.
     struct Entry {
         std::uint32_t resident = 0, level = 0;
@@ -39,9 +39,9 @@ public:
     // `marks`: a bit per ClipmapPage. If the marked pages exceed the slots, marked siblings of the finest
     // level are replaced by their parent, farthest from the centre first, level by level. With one slot
     // the whole scene's page serves everything. Pages of another grid are dropped.
-    ServedPages serve(const Clipmap& clipmap, std::span<const gpu::uint> marks);
+    ResidentPages makeResident(const Clipmap& clipmap, std::span<const gpu::uint> marks);
 
-    // stale(): pages of serve() that must be drawn. drawn(): marks a page as drawn.
+    // stale(): pages of makeResident() that must be drawn. drawn(): marks a page as drawn.
     std::vector<PageDraw> stale(std::span<const PageDraw> pages) const;
     void drawn(const PageDraw& page);
 
@@ -54,13 +54,13 @@ public:
 private:
     struct Held {
         std::uint32_t slot = 0;
-        std::uint64_t needed = 0;  // the last serve() that needed it
+        std::uint64_t needed = 0;  // the last makeResident() that needed it
         bool drawn = false;
     };
     std::uint32_t take(const PageAddress& page);
 
     std::uint32_t slots_;
-    std::uint64_t serves_ = 0;
+    std::uint64_t updates_ = 0;
     std::optional<PageGrid> grid_;
     std::map<PageAddress, Held> held_;
 };

@@ -57,12 +57,12 @@ std::vector<glm::vec4> ClipmapShadow::texels(const View& view, double bias) cons
     append(texels, gpuClipmap(clipmap_, view.eye()));
     for (const gpu::Cascade& level : gpuCascades(cascadesOf(clipmap_), view.eye(), bias))
         append(texels, level);
-    if (served_.table.empty()) {
+    if (resident_pages_.table.empty()) {
         texels.resize(texels.size() + clipmap_.pages());
         return texels;
     }
-    for (const ServedPages::Entry& entry : served_.table) {
-        const PageDraw& page = served_.resident[entry.resident];
+    for (const ResidentPages::Entry& entry : resident_pages_.table) {
+        const PageDraw& page = resident_pages_.resident[entry.resident];
         const ClipmapLevel& level = clipmap_.levels[entry.level];
         const bool whole = page.page.exponent == PageAddress::whole_scene;
         const glm::i64vec2 place =
@@ -86,8 +86,8 @@ void ClipmapShadow::prepare(const FrameInputs& inputs, const View& view) {
     passes.run();
     std::vector<gpu::uint> marks = readMarks();
     BlendedReceivers{inputs.draws, pose_, inputs.geometry, view}.mark(clipmap_, marks);
-    served_ = atlas_->cache().serve(clipmap_, marks);
-    cold_ = atlas_->cache().stale(served_.resident).size();
+    resident_pages_ = atlas_->cache().makeResident(clipmap_, marks);
+    cold_ = atlas_->cache().stale(resident_pages_.resident).size();
 }
 
 void ClipmapShadow::addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth) {
@@ -124,7 +124,7 @@ void ClipmapShadow::addMarkPasses(PassList& passes, const FrameInputs& inputs, I
         });
     if (set == OF_FRAME)
         mark.prepare([this, &inputs] {
-            atlas_->draw(inputs, uploader_, pose_, clipmap_.grid, served_.resident, all_);
+            atlas_->draw(inputs, uploader_, pose_, clipmap_.grid, resident_pages_.resident, all_);
         });
 }
 
@@ -143,9 +143,9 @@ std::vector<gpu::uint> ClipmapShadow::readMarks() const {
 }
 
 ShadowPages ClipmapShadow::counts() const {
-    return {.requested = served_.requested,
-            .resident = served_.requested - served_.fallback,
-            .fallback = served_.fallback,
+    return {.requested = resident_pages_.requested,
+            .resident = resident_pages_.requested - resident_pages_.fallback,
+            .fallback = resident_pages_.fallback,
             .drawn = cold_};
 }
 
@@ -160,8 +160,8 @@ std::vector<std::string> ClipmapShadow::notes() const {
     notes.push_back(
         fmt::format("shadow pages: requested {}, resident {}, replaced by a coarser level {}; drawn once, "
                     "before the first frame: {} of {}",
-                    served_.requested, served_.requested - served_.fallback, served_.fallback, cold_,
-                    served_.resident.size()));
+                    resident_pages_.requested, resident_pages_.requested - resident_pages_.fallback,
+                    resident_pages_.fallback, cold_, resident_pages_.resident.size()));
     return notes;
 }
 

@@ -34,7 +34,7 @@ public:
     // Draws stale pages before the list first runs. Call it once per view.
     void addMarks(PassList& passes, const FrameInputs& inputs, ImageRef depth);
 
-    const ServedPages& served() const { return served_; }
+    const ResidentPages& residentPages() const { return resident_pages_; }
     ShadowPages counts() const;
     // Marks of the last run, a bit per ClipmapPage.
     std::vector<gpu::uint> readMarks() const;
@@ -55,7 +55,7 @@ private:
     GpuBuffer marks_, marks_seen_;
     OwnedSampler sampler_;
     DescriptorSets sets_;  // of prepare() and of the frame
-    ServedPages served_;
+    ResidentPages resident_pages_;
     std::size_t cold_ = 0;  // number of pages that were stale in prepare()
 };
 

@@ -71,9 +71,9 @@ std::vector<std::string> notesOf(const LocalAtlas& atlas, std::size_t draws, std
         notes.push_back(fmt::format("{} {} no shadow (--shadow-lights N enables the N brightest)",
                                     counted(casting.unshadowed, "point or spot light"),
                                     casting.unshadowed == 1 ? "casts" : "cast"));
-    if (casting.without_room > 0)
+    if (casting.over_capacity > 0)
         notes.back() += fmt::format("; {} of them should cast one, but the atlas is full ({} tiles)",
-                                    casting.without_room, gpu::MAX_LOCAL_TILES);
+                                    casting.over_capacity, gpu::MAX_LOCAL_TILES);
     return notes;
 }
 

@@ -300,9 +300,9 @@ TEST(ClipmapCached, PagesHaveTheSameTexelsInEverySlot) {
         kept.passes.run();
         redrawn.passes.run();
         ClipmapShadow &a = *kept.view.shadow.sun.clipmap(), &b = *redrawn.view.shadow.sun.clipmap();
-        ASSERT_EQ(a.served().resident.size(), b.served().resident.size());
-        for (std::size_t i = 0; i < a.served().resident.size(); ++i) {
-            const PageDraw &one = a.served().resident[i], &other = b.served().resident[i];
+        ASSERT_EQ(a.residentPages().resident.size(), b.residentPages().resident.size());
+        for (std::size_t i = 0; i < a.residentPages().resident.size(); ++i) {
+            const PageDraw &one = a.residentPages().resident[i], &other = b.residentPages().resident[i];
             ASSERT_EQ(one.page, other.page);
             const std::vector<float> x = a.pages().read(one.slot), y = b.pages().read(other.slot);
             EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(float)), 0)

@@ -51,7 +51,7 @@ void insertKey(const uint pixel, uint64_t key) {
 }
 
 // List index of an inserted key; `layers` if it overflowed.
-uint placeOf(const uint pixel, const uint64_t key) {
+uint indexOfFragment(const uint pixel, const uint64_t key) {
     uint i = 0;
     while (i < list_of.layers && fragment_keys[i * listedPixels() + pixel] < key) ++i;
     if (i < list_of.layers && fragment_keys[i * listedPixels() + pixel] != key) i = list_of.layers;

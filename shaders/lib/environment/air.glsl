@@ -114,7 +114,7 @@ AirRay airRay(const Haze h, const float height, const vec3 away, const float rea
 // Distance along the ray at which a `share` of the steps ends. Steps are uniform in the square root of the
 // mean air's remaining attenuation; `lost` is the whole ray's. This puts more steps far away, where the
 // air is thinner than its mean or transmits some colours better.
-float placeOf(const AirRay ray, const Haze h, const float fraction, const float lost) {
+float distanceAt(const AirRay ray, const Haze h, const float fraction, const float lost) {
     float z = fraction * (2.0 - fraction) * lost, air = min(z * logRatio(z) / h.extinction.x, ray.air);
     float from_low = (ray.climbs ? air : ray.air - air) / ray.low;
     float along = from_low * logRatio(from_low * abs(ray.up) * h.inverse_height);
@@ -151,8 +151,8 @@ Hazed marchedHaze(const Haze h, const HazeMarch m, const float height, const vec
     uvec2 range = uvec2(0u, uint(h.steps));
     EACH(range) {
         float i = float(range.x);
-        float middle = placeOf(ray, h, (i + 0.5) / h.steps, mean_lost.x);
-        float end = placeOf(ray, h, (i + 1.0) / h.steps, mean_lost.x);
+        float middle = distanceAt(ray, h, (i + 0.5) / h.steps, mean_lost.x);
+        float end = distanceAt(ray, h, (i + 1.0) / h.steps, mean_lost.x);
         vec3 source = sourceAt(h, m, height + away.y * middle, rayleigh_phase, mie_phase);
         bool last = range.x + 1u == range.y;
         end = last ? reach : end;

@@ -43,7 +43,7 @@ INPUT(6) vec4 v_slot_texcoords[SLOT_COUNT / 2];  // of two slots each
 
 #ifdef STAGE_frag
 // Offset of the shaded location from the pixel's centre, pixels.
-vec2 shaded_offset = placeOf(uint(gl_SampleMaskIn[0])) - 0.5;
+vec2 shaded_offset = locationOf(uint(gl_SampleMaskIn[0])) - 0.5;
 // Inputs at the shaded location, and at the pixel's centre for differences between pixels. Under MSAA
 // every read gives an offset: in Mesa 22.3 a plain read after a read at an offset returns the value at
 // that offset.
@@ -74,7 +74,7 @@ vec3 turnedFrom(const vec3 t, const uint layer, const vec2 turn) {
 // Shaded location in pixels, like gl_FragCoord.xy. gl_FragCoord is at the pixel's centre, or at the sample
 // if each sample has its own fragment.
 vec2 shadedPixel() {
-    return multisampled() ? floor(gl_FragCoord.xy) + placeOf(uint(gl_SampleMaskIn[0])) : gl_FragCoord.xy;
+    return multisampled() ? floor(gl_FragCoord.xy) + locationOf(uint(gl_SampleMaskIn[0])) : gl_FragCoord.xy;
 }
 // Reversed depth at the pixel's centre.
 float middleDepth() { return reversedDepth(gl_FragCoord.z); }

@@ -18,7 +18,7 @@ vec2 sampleLocation(const uint i) {
 }
 
 // Mean location of the samples of a mask; the pixel's centre if it is empty.
-vec2 placeOf(const uint mask) {
+vec2 locationOf(const uint mask) {
     vec2 sum = vec2(0.0);
     uint i = 0;
     do {
@@ -33,7 +33,7 @@ uvec2 shadedTexel(const uint covered, const uint left, const float z) {
     return uvec2(floatBitsToUint(z), covered | left << MAX_SAMPLES);
 }
 float depthOfShaded(const uvec2 texel) { return uintBitsToFloat(texel.x); }
-vec2 locationOfShaded(const uvec2 texel) { return placeOf(texel.y & ((1u << MAX_SAMPLES) - 1u)); }
+vec2 locationOfShaded(const uvec2 texel) { return locationOf(texel.y & ((1u << MAX_SAMPLES) - 1u)); }
 uint leftOfShaded(const uvec2 texel) { return texel.y >> MAX_SAMPLES; }
 
 // Samples that a mask's alpha, 0 to 1, covers: the nearest count, so coverage is off by at most half a

@@ -42,7 +42,7 @@ ClipmapPage clipmapPage(const Clipmap map, const uint page) {
 }
 
 // The page to sample at a position.
-ClipmapPage servingPage(const ShadowLight light, const vec3 position) {
+ClipmapPage residentPage(const ShadowLight light, const vec3 position) {
     Clipmap map = clipmap();
     return clipmapPage(map, pageAt(map, light, levelAt(map, position), position));
 }

@@ -36,7 +36,7 @@ float cascadeIndex(const vec3 position) {
 // Resident level minus requested level of the clipmap, as a channel; -1 without a clipmap.
 float pageResidency(const vec3 position) {
     if (feature_shadows != SHADOWS_CLIPMAP) return -1.0;
-    return servingPage(shadowLight(), position).level - cascadeIndex(position);
+    return residentPage(shadowLight(), position).level - cascadeIndex(position);
 }
 
 // A surface as the light sees it in a cascade: its texel coordinates, its depth there, and the plane of
@@ -148,7 +148,7 @@ float cascadeVisibility(const Surface s, const ShadowLight light, const uint lay
 }
 
 float clipmapVisibility(const Surface s, const ShadowLight light) {
-    ClipmapPage page = servingPage(light, s.position);
+    ClipmapPage page = residentPage(light, s.position);
     Cascade level = clipmapLevel(uint(page.level));
     ReceiverPlane r = sunReceiverPlane(s, light, level, MAX_PLANE_BIAS);
     return pcfVisibility(shadow_map, r, page.shift, 0);

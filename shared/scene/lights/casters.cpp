@@ -43,7 +43,7 @@ LocalCasting localCasting(std::span<const Light> lights, int brightest) {
     for (const std::size_t i : all) {
         if (!lights[i].shadow && brightest-- <= 0) continue;
         if (tiles + shadowTiles(lights[i]) > int{gpu::MAX_LOCAL_TILES}) {
-            ++result.without_room;
+            ++result.over_capacity;
             continue;
         }
         tiles += shadowTiles(lights[i]);

@@ -27,8 +27,8 @@ int shadowTiles(const Light& light);
 // intensity or range never cast.
 struct LocalCasting {
     std::vector<std::size_t> lights;
-    std::size_t without_room = 0;  // candidates for which the atlas has no tiles left
-    // Shining point and spot lights without a shadow, including without_room.
+    std::size_t over_capacity = 0;  // candidates for which the atlas has no tiles left
+    // Shining point and spot lights without a shadow, including over_capacity.
     std::size_t unshadowed = 0;
 };
 LocalCasting localCasting(std::span<const Light> lights, int brightest);

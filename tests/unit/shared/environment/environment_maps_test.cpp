@@ -269,7 +269,7 @@ double meanOfMap(const NodeMap& map) {
     const auto edge = [&](int i) { return i == 0 || i + 1 == map.side ? 0.5 : 1.0; };
     for (int y = 0; y < map.side; ++y)
         for (int x = 0; x < map.side; ++x) {
-            const glm::dvec3 d(octahedralDirection(map.placeOf(x, y)));
+            const glm::dvec3 d(octahedralDirection(map.positionOf(x, y)));
             const double l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z),
                          fraction = l1 * l1 * l1 * edge(x) * edge(y);
             sum += double{map.at(x, y)[0]} * fraction;
@@ -332,16 +332,16 @@ TEST(EnvironmentMaps, NodesHaveNoFoldAndNoSeam) {
     for (Texel& t : numbers.nodes) t = Texel{std::uniform_real_distribution<float>(0, 1)(random), 0, 0, 0};
     for (int i = 0; i < 9; ++i)
         for (const auto& [x, y] : {std::pair(i, 0), {i, 8}, {0, i}, {8, i}}) {
-            const glm::vec3 here = octahedralDirection(numbers.placeOf(x, y)),
-                            there = octahedralDirection(
-                                numbers.placeOf(x == 0 || x == 8 ? x : 8 - x, x == 0 || x == 8 ? 8 - y : y));
+            const glm::vec3 here = octahedralDirection(numbers.positionOf(x, y)),
+                            there = octahedralDirection(numbers.positionOf(x == 0 || x == 8 ? x : 8 - x,
+                                                                           x == 0 || x == 8 ? 8 - y : y));
             EXPECT_LT(glm::length(here - there), 1e-6f) << x << "," << y << ": opposite ends are one node";
         }
     // A function that is linear on each face of the octahedron stays so: |x| and |y| of the direction.
     NodeMap faces(9);
     for (int y = 0; y < 9; ++y)
         for (int x = 0; x < 9; ++x) {
-            const glm::vec3 d = octahedralDirection(faces.placeOf(x, y));
+            const glm::vec3 d = octahedralDirection(faces.positionOf(x, y));
             const float l1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
             faces.at(x, y) = Texel{std::abs(d.x) / l1, std::abs(d.y) / l1, d.z / l1, 0};
         }

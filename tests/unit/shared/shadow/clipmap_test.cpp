@@ -84,8 +84,8 @@ std::size_t countOf(const Marks& marks) {
     return count;
 }
 
-void draw(ClipmapCache& cache, const ServedPages& served) {
-    for (const PageDraw& page : cache.stale(served.resident)) cache.drawn(page);
+void draw(ClipmapCache& cache, const ResidentPages& pages) {
+    for (const PageDraw& page : cache.stale(pages.resident)) cache.drawn(page);
 }
 
 // ---- positions of levels -----------------------------------------------------------------------------
@@ -202,25 +202,25 @@ TEST(Clipmap, TheGutterHoldsWhatFiltersRead) {
 
 // Every marked page is resident if there is capacity; otherwise a page that covers it is. No two pages
 // share a slot.
-void expectServed(const Clipmap& map, const Marks& marks, const ServedPages& served, std::uint32_t slots) {
-    ASSERT_EQ(served.table.size(), map.pages());
-    EXPECT_EQ(served.requested, countOf(marks));
-    EXPECT_LE(served.resident.size(), slots);
+void expectResident(const Clipmap& map, const Marks& marks, const ResidentPages& pages, std::uint32_t slots) {
+    ASSERT_EQ(pages.table.size(), map.pages());
+    EXPECT_EQ(pages.requested, countOf(marks));
+    EXPECT_LE(pages.resident.size(), slots);
     std::set<std::uint32_t> used;
-    for (const PageDraw& page : served.resident) {
+    for (const PageDraw& page : pages.resident) {
         EXPECT_LT(page.slot, slots);
         EXPECT_TRUE(used.insert(page.slot).second) << "two pages in one slot";
     }
     std::size_t fallback = 0;
     for (std::size_t i = 0; i < map.pages(); ++i) {
-        const ServedPages::Entry& entry = served.table[i];
-        ASSERT_LT(entry.resident, served.resident.size());
+        const ResidentPages::Entry& entry = pages.table[i];
+        ASSERT_LT(entry.resident, pages.resident.size());
         Clipmap::Place place = map.placeOf(i);
         fallback += (marks[i / 32] >> (i % 32) & 1u) != 0 && entry.level != place.level;
         while (place.level < entry.level) place = map.parentOf(place);
-        EXPECT_EQ(served.resident[entry.resident].page, map.addressOf(place)) << i;
+        EXPECT_EQ(pages.resident[entry.resident].page, map.addressOf(place)) << i;
     }
-    EXPECT_EQ(served.fallback, fallback);
+    EXPECT_EQ(pages.fallback, fallback);
 }
 
 TEST(ClipmapCache, EveryPageIsServedWhateverThePoolHolds) {
@@ -230,12 +230,12 @@ TEST(ClipmapCache, EveryPageIsServedWhateverThePoolHolds) {
     ASSERT_GT(all, 60u);
     for (const std::uint32_t slots : {1u, 2u, 7u, all / 2, all - 1, all, all + 1, 10 * all}) {
         ClipmapCache cache(slots);
-        const ServedPages served = cache.serve(map, marks);
-        expectServed(map, marks, served, slots);
+        const ResidentPages pages = cache.makeResident(map, marks);
+        expectResident(map, marks, pages, slots);
         // The whole scene's page is resident in addition to the requested ones.
-        EXPECT_EQ(served.fallback == 0, slots > all) << slots;
+        EXPECT_EQ(pages.fallback == 0, slots > all) << slots;
         if (slots == 1) {
-            EXPECT_EQ(served.fallback, all);
+            EXPECT_EQ(pages.fallback, all);
         }
     }
 }
@@ -246,16 +246,16 @@ TEST(ClipmapCache, TheFinestLevelGivesWayFirst) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map);
     ClipmapCache cache(static_cast<std::uint32_t>(countOf(marks)) - 3);
-    const ServedPages served = cache.serve(map, marks);
-    EXPECT_GT(served.fallback, 0u);
-    EXPECT_LE(served.fallback, 24u);
+    const ResidentPages pages = cache.makeResident(map, marks);
+    EXPECT_GT(pages.fallback, 0u);
+    EXPECT_LE(pages.fallback, 24u);
     std::size_t finest = map.levels.size();
     for (std::size_t i = 0; i < map.pages(); ++i)
         if ((marks[i / 32] >> (i % 32) & 1u) != 0) finest = std::min(finest, map.placeOf(i).level);
     for (std::size_t i = 0; i < map.pages(); ++i)
-        if ((marks[i / 32] >> (i % 32) & 1u) != 0 && served.table[i].level != map.placeOf(i).level) {
+        if ((marks[i / 32] >> (i % 32) & 1u) != 0 && pages.table[i].level != map.placeOf(i).level) {
             EXPECT_LE(map.placeOf(i).level, finest + 1);
-            EXPECT_EQ(served.table[i].level, map.placeOf(i).level + 1);
+            EXPECT_EQ(pages.table[i].level, map.placeOf(i).level + 1);
         }
 }
 
@@ -266,12 +266,12 @@ TEST(ClipmapCache, ASmallPoolFallsBackStepByStep) {
     const Marks marks = marksAround(map, 20000);
     const auto farthestBack = [&](std::size_t slots) {
         ClipmapCache cache(static_cast<std::uint32_t>(slots));
-        const ServedPages served = cache.serve(map, marks);
+        const ResidentPages pages = cache.makeResident(map, marks);
         std::size_t max = 0, whole = 0;
         for (std::size_t i = 0; i < map.pages(); ++i) {
             if ((marks[i / 32] >> (i % 32) & 1u) == 0) continue;
-            max = std::max(max, served.table[i].level - map.placeOf(i).level);
-            whole += served.table[i].level + 1 == map.levels.size();
+            max = std::max(max, pages.table[i].level - map.placeOf(i).level);
+            whole += pages.table[i].level + 1 == map.levels.size();
         }
         return std::pair(max, whole);
     };
@@ -288,9 +288,9 @@ TEST(ClipmapCache, WhatStaysIsDrawnOnce) {
     const Marks marks = marksAround(map);
     ClipmapCache cache(4096);
     for (int frame = 1; frame <= 4; ++frame) {
-        const ServedPages served = cache.serve(map, marks);
-        EXPECT_EQ(cache.stale(served.resident).size(), frame == 1 ? served.resident.size() : 0u) << frame;
-        draw(cache, served);
+        const ResidentPages pages = cache.makeResident(map, marks);
+        EXPECT_EQ(cache.stale(pages.resident).size(), frame == 1 ? pages.resident.size() : 0u) << frame;
+        draw(cache, pages);
     }
 }
 
@@ -312,28 +312,28 @@ TEST(ClipmapCache, HistoryChangesNoPage) {
     for (const std::uint32_t slots : {40u, 200u, 4096u}) {
         ClipmapCache cache(slots);
         std::map<std::uint32_t, PageAddress> atlas;  // page in each slot
-        std::size_t redrawn = 0, served_pages = 0;
+        std::size_t redrawn = 0, resident_pages = 0;
         for (std::size_t step = 0; step < walk.size(); ++step) {
             const Clipmap map = mapAt(walk[step]);
             const Marks marks = marksAround(map, 600);
-            const ServedPages served = cache.serve(map, marks);
-            expectServed(map, marks, served, slots);
-            for (const PageDraw& page : cache.stale(served.resident)) {
+            const ResidentPages pages = cache.makeResident(map, marks);
+            expectResident(map, marks, pages, slots);
+            for (const PageDraw& page : cache.stale(pages.resident)) {
                 atlas[page.slot] = page.page;
                 ++redrawn;
             }
-            draw(cache, served);
-            served_pages += served.resident.size();
-            for (const PageDraw& page : served.resident) ASSERT_EQ(atlas.at(page.slot), page.page) << step;
+            draw(cache, pages);
+            resident_pages += pages.resident.size();
+            for (const PageDraw& page : pages.resident) ASSERT_EQ(atlas.at(page.slot), page.page) << step;
             ClipmapCache anew(slots);
-            const ServedPages alone = anew.serve(map, marks);
-            ASSERT_EQ(served.resident.size(), alone.resident.size());
+            const ResidentPages alone = anew.makeResident(map, marks);
+            ASSERT_EQ(pages.resident.size(), alone.resident.size());
             for (std::size_t i = 0; i < alone.resident.size(); ++i)
-                ASSERT_EQ(served.resident[i].page, alone.resident[i].page) << step;
+                ASSERT_EQ(pages.resident[i].page, alone.resident[i].page) << step;
             for (std::size_t i = 0; i < map.pages(); ++i)
-                ASSERT_EQ(served.table[i].resident, alone.table[i].resident);
+                ASSERT_EQ(pages.table[i].resident, alone.table[i].resident);
         }
-        EXPECT_LT(redrawn, served_pages / 2);
+        EXPECT_LT(redrawn, resident_pages / 2);
     }
 }
 
@@ -343,13 +343,13 @@ TEST(ClipmapCache, WhatHasMovedIsDrawnAnew) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map);
     ClipmapCache cache(4096);
-    const ServedPages served = cache.serve(map, marks);
-    draw(cache, served);
+    const ResidentPages pages = cache.makeResident(map, marks);
+    draw(cache, pages);
     const glm::dvec2 lower(map.grid.space.from({4, 0, -4})), upper = lower + glm::dvec2(0.5, 0.7);
     cache.moved(lower, upper);
     std::size_t fresh = 0;
-    const std::vector<PageDraw> stale = cache.stale(served.resident);
-    for (const PageDraw& page : served.resident) {
+    const std::vector<PageDraw> stale = cache.stale(pages.resident);
+    for (const PageDraw& page : pages.resident) {
         const CascadeArea area = map.grid.areaOf(page.page);
         const double side = area.texel * map.grid.slot();
         const bool shows = area.corner.x <= upper.x && area.corner.y <= upper.y &&
@@ -373,9 +373,9 @@ TEST(ClipmapCache, PagesOfAnotherGridAreForgotten) {
                                             glm::normalize(sunwards + glm::dvec3(1e-6, 0, 0)), smallMap),
                                  fitClipmap(viewAt({3, 1, -4}), higher, sunwards, smallMap)}) {
         ClipmapCache cache(4096);
-        draw(cache, cache.serve(map, marks));
-        const ServedPages served = cache.serve(other, marksAround(other));
-        EXPECT_EQ(cache.stale(served.resident).size(), served.resident.size());
+        draw(cache, cache.makeResident(map, marks));
+        const ResidentPages pages = cache.makeResident(other, marksAround(other));
+        EXPECT_EQ(cache.stale(pages.resident).size(), pages.resident.size());
     }
 }
 
@@ -384,9 +384,9 @@ TEST(ClipmapCache, WhatWasNotDrawnIsNotTakenForDrawn) {
     const Clipmap map = mapAt({3, 1, -4});
     const Marks marks = marksAround(map);
     ClipmapCache cache(4096);
-    (void)cache.serve(map, marks);
-    const ServedPages served = cache.serve(map, marks);
-    EXPECT_EQ(cache.stale(served.resident).size(), served.resident.size());
+    (void)cache.makeResident(map, marks);
+    const ResidentPages pages = cache.makeResident(map, marks);
+    EXPECT_EQ(cache.stale(pages.resident).size(), pages.resident.size());
 }
 
 // With the camera standing on the ground, a step of 5 cm keeps more than nine of ten pages.
@@ -399,12 +399,12 @@ TEST(ClipmapCache, ASmallStepRedrawsFewPages) {
     };
     ClipmapCache cache(4096);
     const Clipmap before = mapAt({3, 1.7, -4}), after = mapAt({3.05, 1.7, -4});
-    draw(cache, cache.serve(before, marksOfGround(before)));
-    const ServedPages served = cache.serve(after, marksOfGround(after));
-    EXPECT_GT(served.resident.size(), 200u);
-    EXPECT_LT(10 * cache.stale(served.resident).size(), served.resident.size());
-    RecordProperty("redrawn", static_cast<int>(cache.stale(served.resident).size()));
-    RecordProperty("pages", static_cast<int>(served.resident.size()));
+    draw(cache, cache.makeResident(before, marksOfGround(before)));
+    const ResidentPages pages = cache.makeResident(after, marksOfGround(after));
+    EXPECT_GT(pages.resident.size(), 200u);
+    EXPECT_LT(10 * cache.stale(pages.resident).size(), pages.resident.size());
+    RecordProperty("redrawn", static_cast<int>(cache.stale(pages.resident).size()));
+    RecordProperty("pages", static_cast<int>(pages.resident.size()));
 }
 
 }  // namespace

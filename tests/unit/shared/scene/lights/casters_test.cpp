@@ -62,7 +62,7 @@ TEST(Casters, AreNoMoreThanTheAtlasHolds) {
     EXPECT_EQ(casting.lights.size(), 43u) << "42 points take 252 of 256 tiles, and a spot one";
     EXPECT_EQ(casting.lights[41], 59u);
     EXPECT_EQ(casting.lights.back(), 60u);
-    EXPECT_EQ(casting.without_room, 8u);
+    EXPECT_EQ(casting.over_capacity, 8u);
     EXPECT_EQ(casting.unshadowed, 18u);
     EXPECT_EQ(castingLights(lights, 50), casting.lights) << "the reference is told the same";
 }
