@@ -48,14 +48,14 @@ vec2 slotTexcoord(const uint slot, const vec4 texcoords) {
 }
 
 // The turn is decoded in object axes, where it was made, and becomes one in world axes.
-void turnTangent(const Vertex v, const float sign_of_bitangent) {
+void rotateTangent(const Vertex v, const float sign_of_bitangent) {
     float coded = abs(v.tangent.w) - 1.0;
     vec2 turn = normalized(4.0 * abs(fract(coded + vec2(0.0, 0.75)) - 0.5) - 1.0);
     vec3 across = sign_of_bitangent * crossProduct(v.normal, v.tangent.xyz);
     vec3 turned = unitVector(world_from_object * (v.tangent.xyz * turn.x + across * turn.y));
-    float size = coded >= 1.0 ? MIRRORED_TURN : 1.0;
-    v_turn_cosine = size * dot(turned, v_tangent.xyz);
-    v_turn_sine = size * dot(turned, v_tangent.w * crossProduct(v_normal, v_tangent.xyz));
+    float size = coded >= 1.0 ? MIRRORED_ROTATION : 1.0;
+    v_rotation_cosine = size * dot(turned, v_tangent.xyz);
+    v_rotation_sine = size * dot(turned, v_tangent.w * crossProduct(v_normal, v_tangent.xyz));
 }
 
 void main() {
@@ -73,7 +73,7 @@ void main() {
     float sign_of_bitangent = v.tangent.w < 0.0 ? -1.0 : 1.0;
     v_tangent = vec4(unitVector(world_from_object * v.tangent.xyz),
                      sign_of_bitangent * normal_from_object_z.w);
-    if (feature_turned_maps != 0u) turnTangent(v, sign_of_bitangent);
+    if (feature_turned_maps != 0u) rotateTangent(v, sign_of_bitangent);
     v_world = world;
     v_color = v.color;
     if ((feature_object_lights & OBJECT_LIGHTS_VERTEX) != 0) {

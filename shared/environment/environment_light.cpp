@@ -109,7 +109,7 @@ EnvironmentLight::EnvironmentLight(Device& device, Uploader& uploader, Environme
     image_bytes_ = images.maps.bytes() + images.sky.bytes();
     const glm::mat3 turned = environmentFromWorld(double{settings.env_rotation});
     const bool windowed = settings.ibl_diffuse == IblDiffuse::sh_windowed;
-    const auto irradiance = turnedPolynomial(
+    const auto irradiance = rotatedPolynomial(
         irradiancePolynomial(images.harmonics, windowed ? images.window : 0), glm::dmat3(turned));
     std::vector<glm::vec4> texels{
         {turned[0].x, turned[0].z, settings.ibl_intensity, static_cast<float>(images.levels.size())}};

@@ -146,8 +146,8 @@ std::array<glm::dvec3, 9> irradiancePolynomial(const Harmonics& radiance, double
 }
 
 // Rotates a linear form and a traceless quadratic form: for unit length, 3 z^2 - 1 is 2 z^2 - x^2 - y^2.
-std::array<glm::dvec3, 9> turnedPolynomial(const std::array<glm::dvec3, 9>& polynomial,
-                                           const glm::dmat3& rotation) {
+std::array<glm::dvec3, 9> rotatedPolynomial(const std::array<glm::dvec3, 9>& polynomial,
+                                            const glm::dmat3& rotation) {
     std::array<glm::dvec3, 9> result;
     for (int c = 0; c < 3; ++c) {
         const auto of = [&](std::size_t i) { return polynomial[i][c]; };

@@ -23,8 +23,8 @@ Harmonics project(const LatLong& light);
 // multiplied by 1 / (1 + window l^2 (l + 1)^2) (Sloan 2008, "Stupid Spherical Harmonics (SH) Tricks").
 std::array<glm::dvec3, 9> irradiancePolynomial(const Harmonics& radiance, double window = 0);
 // Rotated light: the value for a normal is that of `polynomial` for rotation * normal.
-std::array<glm::dvec3, 9> turnedPolynomial(const std::array<glm::dvec3, 9>& polynomial,
-                                           const glm::dmat3& rotation);
+std::array<glm::dvec3, 9> rotatedPolynomial(const std::array<glm::dvec3, 9>& polynomial,
+                                            const glm::dmat3& rotation);
 glm::dvec3 evaluate(const std::array<glm::dvec3, 9>& polynomial, const glm::dvec3& normal);
 
 // Smallest window, within 1 %, for which no component of irradiance is negative in 2000 directions; 0 if

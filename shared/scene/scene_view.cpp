@@ -23,7 +23,7 @@ void takeSun(const Scene& scene, const ViewRequest& request, std::shared_ptr<con
     result.environment = &kept->residual;
     if (request.environment_factor > 0)
         result.lights.push_back(
-            turnedSun(kept->light, request.environment_rotation, request.environment_factor));
+            rotatedSun(kept->light, request.environment_rotation, request.environment_factor));
 }
 
 // The direction from which the default sun shines, whichever camera is chosen: from the target of the

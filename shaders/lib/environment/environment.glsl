@@ -38,7 +38,7 @@ vec3 mapRadiance(const vec3 map, const vec2 position) {
 
 // Interpolates between two levels; clamps at the first and the last.
 vec3 levelRadiance(float level, const vec2 position) {
-    float levels = environmentTurn().w;
+    float levels = environmentRotation().w;
     level = clamp(level, 0.0, levels - 1.0);
     float lower = min(floor(level), levels - 2.0);
     int first = int(ENVIRONMENT_TEXEL_LEVELS) + int(lower);

@@ -9,15 +9,15 @@ layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT) uniform samplerBuffer env
 layout(set = SET_FRAME, binding = BINDING_SKY) uniform sampler2D sky;
 
 // Cosine and sine of its rotation about +Y, its radiance factor, and its number of map levels.
-vec4 environmentTurn() { return texelFetch(environment_texels, 0); }
+vec4 environmentRotation() { return texelFetch(environment_texels, 0); }
 
 // World direction to the environment's axes.
 vec3 environmentFromWorld(const vec3 d) {
-    vec4 turn = environmentTurn();
-    vec3 turned = vec3(turn.x * d.x - turn.y * d.z, d.y, turn.y * d.x + turn.x * d.z);
+    vec4 rotation = environmentRotation();
+    vec3 turned = vec3(rotation.x * d.x - rotation.y * d.z, d.y, rotation.y * d.x + rotation.x * d.z);
     return turned;
 }
-float environmentFactor() { return environmentTurn().z; }
+float environmentFactor() { return environmentRotation().z; }
 
 // Columns wrap around. Rows beyond a pole are mirrored and shifted by half a turn.
 vec3 skyTexel(ivec2 p, const ivec2 size) {

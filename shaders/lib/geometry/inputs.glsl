@@ -19,18 +19,18 @@
 #include "shaders/lib/samples/samples.glsl"
 #define DIRECTION in
 #endif
-const float MIRRORED_TURN = 1024.0;
+const float MIRRORED_ROTATION = 1024.0;
 
 #define INPUT(at) layout(location = at) DIRECTION
 #define FOURTH(at) layout(location = at, component = 3) DIRECTION
 
 INPUT(0) vec3 v_normal;
-// feature_turned_maps: the tangent of their maps along tangent and bitangent. Times MIRRORED_TURN if their
-// bitangent has the other sign, so that interpolation keeps the two apart.
-FOURTH(0) float v_turn_cosine;
+// feature_turned_maps: the tangent of their maps along tangent and bitangent. Times MIRRORED_ROTATION if
+// their bitangent has the other sign, so that interpolation keeps the two apart.
+FOURTH(0) float v_rotation_cosine;
 INPUT(1) vec4 v_tangent;
 INPUT(2) vec3 v_world;  // world axes, camera as origin, m; only for the triangle's normal
-FOURTH(2) float v_turn_sine;
+FOURTH(2) float v_rotation_sine;
 INPUT(3) vec4 v_color;
 INPUT(4) vec3 v_irradiance;  // of vertex lights, W/m^2
 FOURTH(4) float v_texcoord_u;
@@ -55,18 +55,19 @@ vec2 shaded_offset = locationOf(uint(gl_SampleMaskIn[0])) - 0.5;
 #define middle_texcoord vec2(MIDDLE(v_texcoord_u), MIDDLE(v_texcoord_v))
 #define shaded_tangent SHADED(v_tangent)
 #define middle_tangent MIDDLE(v_tangent)
-#define shaded_turn vec2(SHADED(v_turn_cosine), SHADED(v_turn_sine))
-#define middle_turn vec2(MIDDLE(v_turn_cosine), MIDDLE(v_turn_sine))
+#define shaded_rotation vec2(SHADED(v_rotation_cosine), SHADED(v_rotation_sine))
+#define middle_rotation vec2(MIDDLE(v_rotation_cosine), MIDDLE(v_rotation_sine))
 #define shaded_color SHADED(v_color)
 #define middle_color MIDDLE(v_color)
 #define shaded_irradiance SHADED(v_irradiance)
 #define shaded_irradiance_behind SHADED(v_irradiance_behind)
 
-// A vector of the layer's map, in the normal map's tangent space. `turn`: shaded_turn or middle_turn.
-vec3 turnedFrom(const vec3 t, const uint layer, const vec2 turn) {
+// A vector of the layer's map, in the normal map's tangent space. `rotation`: shaded_rotation
+// or middle_rotation.
+vec3 rotatedFrom(const vec3 t, const uint layer, const vec2 rotation) {
     if ((feature_turned_maps & layer) == 0u) return t;
-    bool mirrored = dot(turn, turn) > MIRRORED_TURN;
-    vec2 unit = mirrored ? turn / MIRRORED_TURN : turn;
+    bool mirrored = dot(rotation, rotation) > MIRRORED_ROTATION;
+    vec2 unit = mirrored ? rotation / MIRRORED_ROTATION : rotation;
     float y = mirrored ? -t.y : t.y;
     return vec3(t.x * unit.x - y * unit.y, t.x * unit.y + y * unit.x, t.z);
 }

@@ -170,7 +170,7 @@ vec3 clearcoatNormal(const vec3 towards) {
     vec3 n = shaded_normal;
     if (on(feature_clearcoat_normal_texture)) {
         vec3 t = mappedNormal(TEXEL(clearcoat_normal), material.clearcoat_normal_scale);
-        t = turnedFrom(t, LAYER_CLEARCOAT, shaded_turn);
+        t = rotatedFrom(t, LAYER_CLEARCOAT, shaded_rotation);
         n = fromTangentSpace(t, n, shaded_tangent);
     }
     return shadingNormal(n, towards);
@@ -219,7 +219,7 @@ float filteredClearcoatRoughness(const float roughness) {
         vec2 at = middleTexcoord(SLOT_clearcoat_normal);
         float scale = overQuad(material.clearcoat_normal_scale);
         vec3 t = mappedNormal(texture(clearcoat_normal_texture, at), scale);
-        t = turnedFrom(t, LAYER_CLEARCOAT, middle_turn);
+        t = rotatedFrom(t, LAYER_CLEARCOAT, middle_rotation);
         n = fromTangentSpace(t, n, middle_tangent);
     }
     return filteredRoughness(roughness, n);
@@ -249,7 +249,7 @@ void addAnisotropy(const Material m, inout Surface s) {
     vec2 turn = m.anisotropy_rotation;
     direction = vec2(direction.x * turn.x - direction.y * turn.y,
                      direction.x * turn.y + direction.y * turn.x);
-    vec3 t = turnedFrom(vec3(direction, 0.0), LAYER_ANISOTROPY, shaded_turn);
+    vec3 t = rotatedFrom(vec3(direction, 0.0), LAYER_ANISOTROPY, shaded_rotation);
     turn = turnOf(fromTangentSpace(t, shaded_normal, shaded_tangent), s.normal);
     s.anisotropy = turn != vec2(0.0) ? strength : 0.0;
     s.anisotropy_turn = strength > 0.0 ? turn : vec2(0.0);

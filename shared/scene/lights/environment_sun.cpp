@@ -270,7 +270,7 @@ EnvironmentSun environmentSun(const Environment& environment) {
     return none;
 }
 
-Light turnedSun(const Light& light, double degrees, double factor) {
+Light rotatedSun(const Light& light, double degrees, double factor) {
     const double turn = glm::radians(degrees), c = std::cos(turn), s = std::sin(turn);
     const glm::dvec3& d = light.direction;
     Light result = light;

@@ -49,10 +49,10 @@ EnvironmentSun environmentSun(const Environment& environment);
 
 // The light in world axes, for an environment rotated about +Y by `degrees`, counter-clockwise seen from
 // above, and scaled by `factor`.
-Light turnedSun(const Light& light, double degrees, double factor);
+Light rotatedSun(const Light& light, double degrees, double factor);
 
 // "of 0.53 degrees, towards (0.3, 0.8, 0.5), 12.4 (10.1, 9.2, 8.1) lux, 63 % of the environment's light",
-// for a light of turnedSun().
+// for a light of rotatedSun().
 std::string describe(const Light& sun, double fraction);
 
 }  // namespace diptych

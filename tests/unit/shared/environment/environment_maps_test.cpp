@@ -139,7 +139,7 @@ TEST(EnvironmentMaps, ThePolynomialIsTheIrradiance) {
 TEST(EnvironmentMaps, ATurnedPolynomialIsThatOfTheTurnedNormal) {
     const auto polynomial = irradiancePolynomial(project(LatLong(skyOf(16, 8, 5))), 0.1);
     const glm::dmat3 turn(glm::rotate(glm::dmat4(1), 0.8, glm::normalize(glm::dvec3(0.2, 0.9, -0.4))));
-    const auto turned = turnedPolynomial(polynomial, turn);
+    const auto turned = rotatedPolynomial(polynomial, turn);
     for (int i = 0; i < 50; ++i) {
         const glm::dvec3 n = onSphere(i, 50);
         EXPECT_LT(glm::length(evaluate(turned, n) - evaluate(polynomial, turn * n)), 1e-14) << i;

@@ -274,7 +274,7 @@ TEST(EnvironmentSun, TurnsWithTheEnvironment) {
     light.kind = LightKind::directional;
     light.direction = {-1, 0, 0};  // from +X
     light.intensity = 3;
-    const Light turned = turnedSun(light, 90, 2);
+    const Light turned = rotatedSun(light, 90, 2);
     // Counter-clockwise seen from above, +X moves to -Z.
     EXPECT_LT(glm::length(turned.direction - glm::dvec3(0, 0, 1)), 1e-15);
     EXPECT_EQ(turned.intensity, 6);
