@@ -32,15 +32,15 @@ Size sizeForLights(const Subject& subject) {
 }
 
 // This many copies of every local light, sharing its intensity, so that the image stays the same.
-void pushLights(Case& pushed, const Subject& subject, double copies) {
+void applyLights(Case& changed, const Subject& subject, double copies) {
     const auto count = static_cast<std::size_t>(copies);
-    pushed.settings.size = sizeForLights(subject);
+    changed.settings.size = sizeForLights(subject);
     std::vector<Light> lights;
-    for (Light light : pushed.scene.lights) {
+    for (Light light : changed.scene.lights) {
         if (isLocal(light)) light.intensity = static_cast<float>(light.intensity / copies);
         lights.insert(lights.end(), isLocal(light) ? count : 1, light);
     }
-    pushed.scene.lights = std::move(lights);
+    changed.scene.lights = std::move(lights);
 }
 
 // float32 sums, in order: each addition rounds to 2^-24 of the sum so far. Equal terms round one way while
@@ -85,12 +85,12 @@ Primitive divided(const Primitive& whole, int n) {
     return parts;
 }
 
-void pushTriangles(Case& pushed, const Subject& subject, double triangles) {
+void applyTriangles(Case& changed, const Subject& subject, double triangles) {
     const double each =
         triangles / static_cast<double>(std::max<std::size_t>(triangleCount(subject.original.scene), 1));
     const int n = static_cast<int>(std::lround(std::sqrt(std::max(each, 1.0))));
     if (n < 2) return;
-    for (Mesh& mesh : pushed.scene.meshes)
+    for (Mesh& mesh : changed.scene.meshes)
         for (Primitive& primitive : mesh.primitives)
             if (isRigid(primitive)) primitive = divided(primitive, n);
 }
@@ -101,9 +101,9 @@ std::string lacksRigid(const Subject& subject) {
     return "every mesh of the scene is skinned or morphed";
 }
 
-void pushSize(Case& pushed, const Subject& subject, double height) {
+void applySize(Case& changed, const Subject& subject, double height) {
     const double aspect = static_cast<double>(subject.view.width) / subject.view.height;
-    pushed.settings.size = {wholePixels(aspect * height), wholePixels(height)};
+    changed.settings.size = {wholePixels(aspect * height), wholePixels(height)};
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ std::vector<Quantity> amountQuantities() {
          .what = "number of copies of every local light, which share its intensity",
          .magnitudes = {1, 10, 100, 1000, maxCopies},
          .lacks = {lacksLocalLight},
-         .push = pushLights,
+         .apply = applyLights,
          .variants = {{"assign", "tiled"}, {"assign", "every"}},
          .same_image = true,
          .whole = true,
@@ -127,7 +127,7 @@ std::vector<Quantity> amountQuantities() {
                  return static_cast<double>(triangleCount(subject.original.scene));
              },
          .lacks = {lacksRigid},
-         .push = pushTriangles,
+         .apply = applyTriangles,
          .whole = true,
          .because = "new corners are float32 as the old ones are, and indices have 32 bits"},
         {.name = "size",
@@ -135,7 +135,7 @@ std::vector<Quantity> amountQuantities() {
          .what = "the picture's height at the same aspect ratio",
          .magnitudes = {1, 2, 4, 9, 18, 45, 90, 180, 360, 720},
          .original = [](const Subject& subject) { return double(subject.view.height); },
-         .push = pushSize,
+         .apply = applySize,
          .whole = true,
          .because = "pixel coordinates are float32, exact up to 2^24; a picture's side has at "
                     "most 2^14 pixels"},
@@ -147,7 +147,7 @@ std::vector<Quantity> amountQuantities() {
          .lacks = {[](const Subject& subject) -> std::string {
              return subject.moves ? "" : "nothing in the scene is animated";
          }},
-         .push = [](Case& pushed, const Subject&, double seconds) { pushed.settings.time = seconds; },
+         .apply = [](Case& changed, const Subject&, double seconds) { changed.settings.time = seconds; },
          .because = "time is double, which resolves 1e-10 s at 1e6 s, and nothing moves after the last key"},
     };
 }

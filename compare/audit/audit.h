@@ -94,7 +94,7 @@ struct Audit : Audited {
     std::vector<std::string> to_come;  // quantities still to measure; empty when complete
     std::vector<Requirement> requirements;
     std::map<std::string, std::string> scenes;  // reduced scenes: file name and text
-    std::size_t kept = 0;                       // steps measured by an earlier command
+    std::size_t resumed = 0;                    // steps measured by an earlier command
 
     // Whether all requirements are met.
     bool passes() const { return std::ranges::all_of(requirements, &Requirement::met); }

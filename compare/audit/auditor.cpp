@@ -20,7 +20,7 @@ Auditor::Auditor(const AuditQuestion& question, Audited audited, const Subject& 
       subject_(subject),
       audit_{std::move(audited), {}, {}, {}, {}, 0},
       measurer_(device, subject, std::move(onStep)),
-      kept_(question.folder, "audit", key()) {}
+      checkpoint_(question.folder, "audit", key()) {}
 
 // Inputs of a step besides its magnitude and series.
 nlohmann::ordered_json Auditor::key() {
@@ -30,7 +30,7 @@ nlohmann::ordered_json Auditor::key() {
     return key;
 }
 
-void Auditor::measure(const Stage& stage, const std::function<void(const QuantityAudit&)>& told) {
+void Auditor::measure(const Stage& stage, const std::function<void(const QuantityAudit&)>& onFinished) {
     // Required quantities are measured too.
     std::vector<std::string> names = question_.quantities;
     for (const auto& [name, magnitude] : question_.required)
@@ -41,7 +41,7 @@ void Auditor::measure(const Stage& stage, const std::function<void(const Quantit
         const auto count = static_cast<double>(all.size()), at = static_cast<double>(q);
         audit_.to_come.erase(audit_.to_come.begin());
         measure(*all[q], stage.part(0.02 + 0.96 * at / count, 0.02 + 0.96 * (at + 1) / count));
-        told(audit_.quantities.back());
+        onFinished(audit_.quantities.back());
         // Plots of finished quantities can be viewed while others are measured.
         const bool shown = audit_.quantities.back().lacks.empty();
         if (shown && q + 1 < all.size()) writeAudit(audit_, question_.folder, question_.force);
@@ -76,19 +76,19 @@ Step Auditor::stepAt(const Quantity& quantity, std::span<const Series> series, d
         Step step = stepFromJson(json);
         return step.outcomes.size() == series.size() ? std::optional(std::move(step)) : std::nullopt;
     };
-    if (const std::optional<Step> step = experiment::findCheckpoint(kept_, name, whole)) {
-        ++audit_.kept;
+    if (const std::optional<Step> step = experiment::findCheckpoint(checkpoint_, name, whole)) {
+        ++audit_.resumed;
         return *step;
     }
     Step step = measurer_.measure(quantity, series, magnitude);
     for (Outcome& outcome : step.outcomes) outcome.scene = audit_.scene;
-    kept_.keep(name, toJson(step));
+    checkpoint_.keep(name, toJson(step));
     return step;
 }
 
 std::string Auditor::write() {
     std::string json = writeAudit(audit_, question_.folder, question_.force);
-    kept_.remove();
+    checkpoint_.remove();
     return json;
 }
 

@@ -39,11 +39,11 @@ public:
     Auditor(const AuditQuestion& question, Audited audited, const Subject& subject, Device& device,
             std::function<void(const std::string&)> onStep);
 
-    bool isRenewed() const { return kept_.isRenewed(); }  // steps of another key were removed
+    bool isRenewed() const { return checkpoint_.isRenewed(); }  // steps of another key were removed
     const Audit& audit() const { return audit_; }
-    // `told`: called with each finished quantity.
-    void measure(const Stage& stage, const std::function<void(const QuantityAudit&)>& told);
-    // Writes the folder, removes what was kept and returns audit.json.
+    // `onFinished`: called with each finished quantity.
+    void measure(const Stage& stage, const std::function<void(const QuantityAudit&)>& onFinished);
+    // Writes the folder, removes the checkpoint and returns audit.json.
     std::string write();
 
 private:
@@ -55,7 +55,7 @@ private:
     const Subject& subject_;
     Audit audit_;
     Measurer measurer_;
-    CheckpointFolder kept_;
+    CheckpointFolder checkpoint_;
 };
 
 }  // namespace diptych::audit

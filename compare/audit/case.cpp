@@ -35,9 +35,9 @@ void findSurface(Subject& subject, const Scene& scene, const Pose& pose) {
             const glm::dvec3 along = directionAt(subject.view, x, y);
             const auto hit = surface.nearest(subject.view.eye(), along);
             if (!hit) continue;
-            subject.nearest = subject.seen ? std::min(subject.nearest, hit->distance) : hit->distance;
-            if (subject.seen && away >= nearest) continue;
-            subject.seen = true;
+            subject.nearest = subject.has_surface ? std::min(subject.nearest, hit->distance) : hit->distance;
+            if (subject.has_surface && away >= nearest) continue;
+            subject.has_surface = true;
             nearest = away;
             subject.point = subject.view.eye() + along * hit->distance;
             subject.normal = hit->normal;
@@ -86,22 +86,22 @@ Node& carry(Scene& scene, std::size_t index, int mesh) {
     return scene.nodes.emplace_back(std::move(carrier));
 }
 
-void moveAll(Case& pushed, const glm::dmat4& move) {
-    Scene& scene = pushed.scene;
+void moveAll(Case& changed, const glm::dmat4& move) {
+    Scene& scene = changed.scene;
     const int root = static_cast<int>(scene.nodes.size());
     for (Node& node : scene.nodes)
         if (node.parent < 0) node.parent = root;
     scene.nodes.push_back({.name = "moved", .parent_from_node = move});
     const auto moved = [&](const glm::dvec3& location) { return glm::dvec3(move * glm::dvec4(location, 1)); };
     for (Light& light : scene.lights) light.position = moved(light.position);
-    glm::dmat4& camera = pushed.camera().world_from_camera;
+    glm::dmat4& camera = changed.camera().world_from_camera;
     camera[3] = glm::dvec4(moved(glm::dvec3(camera[3])), 1);
 }
 
-void scaleLengths(Case& pushed, double factor) {
-    moveAll(pushed, glm::scale(glm::dmat4(1), glm::dvec3(factor)));
+void scaleLengths(Case& changed, double factor) {
+    moveAll(changed, glm::scale(glm::dmat4(1), glm::dvec3(factor)));
     const auto f = static_cast<float>(factor);
-    for (Light& light : pushed.scene.lights) {
+    for (Light& light : changed.scene.lights) {
         for (float* length : {&light.range, &light.width, &light.height, &light.radius, &light.length})
             *length *= f;
         // Candela equal lux at one metre.
@@ -109,12 +109,12 @@ void scaleLengths(Case& pushed, double factor) {
             light.intensity = static_cast<float>(double{light.intensity} * factor * factor);
     }
     // Nodes scale a volume's thickness, but not the distance over which it absorbs.
-    for (Material& material : pushed.scene.materials) material.attenuation_distance *= f;
-    Camera& camera = pushed.camera();
+    for (Material& material : changed.scene.materials) material.attenuation_distance *= f;
+    Camera& camera = changed.camera();
     camera.near *= factor;
     camera.far *= factor;
     camera.ymag *= factor;
-    Settings& settings = pushed.settings;
+    Settings& settings = changed.settings;
     if (settings.haze) {
         settings.haze_density /= f;
         settings.haze_rayleigh_height *= f;

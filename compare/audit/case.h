@@ -36,7 +36,7 @@ struct Subject {
     View view;
     std::string view_name;  // the camera's name, or how it was chosen
     // The visible surface in or nearest to the image's centre: world, m.
-    bool seen = false;
+    bool has_surface = false;
     glm::dvec3 point{0}, normal{0, 1, 0};  // the normal: unit, of the triangle, towards the eye
     double nearest = 0;                    // m, from the eye to the nearest surface found
     Bounds bounds;                         // of the scene at its pose
@@ -44,7 +44,7 @@ struct Subject {
 
     double distance() const { return glm::distance(point, view.eye()); }  // of the visible surface, m
     // From the eye to beyond the whole scene, m.
-    double reach() const { return glm::distance(bounds.centre(), view.eye()) + bounds.radius(); }
+    double farthest() const { return glm::distance(bounds.centre(), view.eye()) + bounds.radius(); }
     // The scene's radius, above 0, m.
     double radius() const { return std::max(bounds.radius(), 1e-6); }
 };
@@ -68,9 +68,9 @@ Node& carry(Scene& scene, std::size_t index, int mesh);
 
 // Moves the whole scene, its lights and its camera: world' = move * world, a uniform scale and a
 // translation. Does not scale lights and camera planes; see scaleLengths().
-void moveAll(Case& pushed, const glm::dmat4& move);
+void moveAll(Case& changed, const glm::dmat4& move);
 
 // Scales all lengths of scene, lights, haze, shadows and camera, so that the image stays the same.
-void scaleLengths(Case& pushed, double factor);
+void scaleLengths(Case& changed, double factor);
 
 }  // namespace diptych::audit

@@ -49,8 +49,8 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     if (!broken) return;
     const Series& series = of.series[broken->series];
     const BreakCriterion& criterion = criteria[broken->criterion];
-    Case pushed = subject.original;
-    of.quantity->push(pushed, subject, broken->magnitude);
+    Case changed = subject.original;
+    of.quantity->apply(changed, subject, broken->magnitude);
     const auto test = [&](const Case& candidate) {
         const Step step = measurer.measure(candidate, std::span(&series, 1));
         const Outcome& outcome = step.outcomes.front();
@@ -61,7 +61,7 @@ void addFailures(QuantityAudit& of, const Subject& subject, Measurer& measurer, 
     };
     const std::string at =
         fmt::format("{} breaks at {}", series.describe(), magnitudeText(broken->magnitude, *of.quantity));
-    const std::optional<Reduced> reduced = reduce(pushed, test, maxTried);
+    const std::optional<Reduced> reduced = reduce(changed, test, maxTried);
     Failure& failure = of.failures.emplace_back();
     if (!reduced) {
         failure.text = at + "; it does not occur without the scene's textures, environment and animation";

@@ -83,9 +83,9 @@ void unindex(Related& related, const Subject&) {
     for (Mesh& mesh : related.changed.scene.meshes)
         for (Primitive& primitive : mesh.primitives) {
             if (!isRigid(primitive)) continue;
-            Primitive apart = withoutVertices(primitive);
-            for (const std::uint32_t i : primitive.indices) addVertex(apart, primitive, i);
-            primitive = std::move(apart);
+            Primitive separated = withoutVertices(primitive);
+            for (const std::uint32_t i : primitive.indices) addVertex(separated, primitive, i);
+            primitive = std::move(separated);
         }
 }
 
@@ -107,7 +107,7 @@ std::uint32_t middleOf(Primitive& primitive, std::uint32_t a, std::uint32_t b) {
 
 std::string lacksFlat(const Subject& subject) {
     // Edge midpoints round to 2^-24 of their distance from the mesh's origin.
-    if (subject.seen && subject.bounds.radius() > 1000 * subject.nearest)
+    if (subject.has_surface && subject.bounds.radius() > 1000 * subject.nearest)
         return "the scene's farthest surface is over 1000 times as far as its nearest: rounded edge "
                "midpoints would be visible";
     for (const Mesh& mesh : subject.original.scene.meshes)

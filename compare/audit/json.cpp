@@ -124,7 +124,7 @@ Step stepFromJson(const Json& original) {
 Json toJson(const Audit& audit) {
     Json json{{"schema", 2}};
     addAudited(json, audit);
-    json["steps_kept"] = audit.kept;
+    json["steps_kept"] = audit.resumed;
     json["to_come"] = audit.to_come;
     json["quantities"] = arrayOf(audit.quantities, quantityJson);
     json["requirements"] = arrayOf(audit.requirements, [](const Requirement& requirement) -> Json {

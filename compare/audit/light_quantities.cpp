@@ -18,19 +18,19 @@ float times(float value, double factor) {
 }
 
 // Scales everything that emits light, and thus the image's radiance.
-void pushIntensity(Case& pushed, const Subject&, double factor) {
-    for (Light& light : pushed.scene.lights) light.intensity = times(light.intensity, factor);
-    Settings& settings = pushed.settings;
+void applyIntensity(Case& changed, const Subject&, double factor) {
+    for (Light& light : changed.scene.lights) light.intensity = times(light.intensity, factor);
+    Settings& settings = changed.settings;
     settings.ibl_intensity = times(settings.ibl_intensity, factor);
     settings.light_cutoff = times(settings.light_cutoff, factor);
     for (float* component : {&settings.ambient.r, &settings.ambient.g, &settings.ambient.b})
         *component = times(*component, factor);
-    for (Material& material : pushed.scene.materials) {
+    for (Material& material : changed.scene.materials) {
         material.emissive = glm::vec3(glm::dvec3(material.emissive) * factor);
         material.lightmap_intensity = times(material.lightmap_intensity, factor);
     }
-    for (auto& [index, parts] : pushed.scene.material_parts) parts.emissive_strength *= factor;
-    pushed.scene.background = glm::vec3(glm::dvec3(pushed.scene.background) * factor);
+    for (auto& [index, parts] : changed.scene.material_parts) parts.emissive_strength *= factor;
+    changed.scene.background = glm::vec3(glm::dvec3(changed.scene.background) * factor);
 }
 
 // Range of light intensities, each in its own unit.
@@ -70,8 +70,8 @@ Predicted predictDistance(const Subject& subject, const Settings&, double error)
                 "error of 2^-25 of their distance from the camera"};
 }
 
-void pushRange(Case& pushed, const Subject&, double metres) {
-    for (Light& light : pushed.scene.lights)
+void applyRange(Case& changed, const Subject&, double metres) {
+    for (Light& light : changed.scene.lights)
         if (isLocal(light)) light.range = static_cast<float>(metres);
 }
 
@@ -84,8 +84,8 @@ double originalRange(const Subject& subject) {
 
 // Moves each local light straight to a distance from a point. `as_bright`: scaled to keep its brightness
 // there, and without a range.
-void moveLocalLights(Case& pushed, const glm::dvec3& from, double metres, bool as_bright) {
-    for (Light& light : pushed.scene.lights) {
+void moveLocalLights(Case& changed, const glm::dvec3& from, double metres, bool as_bright) {
+    for (Light& light : changed.scene.lights) {
         if (!isLocal(light)) continue;
         const glm::dvec3 before = light.position - from;
         const double distance = glm::length(before), nearer = metres / distance;
@@ -98,8 +98,8 @@ void moveLocalLights(Case& pushed, const glm::dvec3& from, double metres, bool a
 }
 
 // Point and spot lights become spot lights without a penumbra, aimed at the image's centre.
-void pushCone(Case& pushed, const Subject& subject, double degrees) {
-    for (Light& light : pushed.scene.lights) {
+void applyCone(Case& changed, const Subject& subject, double degrees) {
+    for (Light& light : changed.scene.lights) {
         if (!isPunctual(light)) continue;
         light.kind = LightKind::spot;
         light.inner_cone = light.outer_cone = static_cast<float>(glm::radians(degrees / 2));
@@ -139,8 +139,8 @@ Predicted predictEnvironment(const Subject& subject, const Settings&, double) {
 }
 
 // Scales only the brightest pixel.
-void pushEnvironment(Case& pushed, const Subject&, double factor) {
-    Image& radiance = pushed.scene.environment->radiance;
+void applyEnvironment(Case& changed, const Subject&, double factor) {
+    Image& radiance = changed.scene.environment->radiance;
     const std::size_t brightest = brightestOf(radiance).first;
     for (int c = 0; c < 3; ++c) {
         float& component = radiance.pixel(brightest)[c];
@@ -157,7 +157,7 @@ std::vector<Quantity> lightQuantities() {
         {.name = "intensity",
          .what = "all light sources, multiplied by a factor",
          .magnitudes = ladder(1e-12, 1e12),
-         .push = pushIntensity,
+         .apply = applyIntensity,
          .variants = {{"lit-format", "fp16"}, {"lit-format", "b10g11r11"}},
          .same_image = true,
          .light = true,
@@ -168,7 +168,7 @@ std::vector<Quantity> lightQuantities() {
          .magnitudes = ladder(1e-3, 1e9),
          .original = originalRange,
          .lacks = {lacksLocalLight},
-         .push = pushRange,
+         .apply = applyRange,
          .because = "the range window uses the squared ratio of distance to range, which one step computes"},
         {.name = "distance",
          .unit = "m",
@@ -177,8 +177,8 @@ std::vector<Quantity> lightQuantities() {
          .magnitudes = places,
          .original = [](const Subject& subject) { return localDistance(subject, subject.point); },
          .lacks = {lacksLocalLight, lacksPerspective, lacksSurface},
-         .push = [](Case& pushed, const Subject& subject,
-                    double metres) { moveLocalLights(pushed, subject.point, metres, true); },
+         .apply = [](Case& changed, const Subject& subject,
+                     double metres) { moveLocalLights(changed, subject.point, metres, true); },
          .predict = predictDistance},
         // Intensities stay: a light beside the eye lights the visible surfaces, not the eye.
         {.name = "eye",
@@ -187,8 +187,8 @@ std::vector<Quantity> lightQuantities() {
          .magnitudes = places,
          .original = [](const Subject& subject) { return localDistance(subject, subject.view.eye()); },
          .lacks = {lacksLocalLight},
-         .push = [](Case& pushed, const Subject& subject,
-                    double metres) { moveLocalLights(pushed, subject.view.eye(), metres, false); },
+         .apply = [](Case& changed, const Subject& subject,
+                     double metres) { moveLocalLights(changed, subject.view.eye(), metres, false); },
          .because = "a light near the camera is near the origin of all coordinates, where float32 is finest"},
         {.name = "cone",
          .unit = "degrees",
@@ -196,13 +196,13 @@ std::vector<Quantity> lightQuantities() {
          .magnitudes = ladder(0.01, 10, 10, {30, 90, 150, 179, 180}),
          .original = [](const Subject&) { return 90.0; },
          .lacks = {lacksPunctualLight, lacksPerspective, lacksSurface},
-         .push = pushCone,
+         .apply = applyCone,
          .because = "a cone's soft edge is at least 0.001 wide in cosine, and float32 resolves 6e-8"},
         {.name = "environment",
          .what = "the brightest pixel of the environment, multiplied by a factor",
          .magnitudes = ladder(1, 1e12),
          .lacks = {lacksEnvironment},
-         .push = pushEnvironment,
+         .apply = applyEnvironment,
          .variants = {{"ibl", "sampled"}},
          .predict = predictEnvironment},
     };

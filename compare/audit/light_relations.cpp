@@ -45,7 +45,7 @@ void multiplyLight(Related& related, const Subject& subject, double factor) {
         related.base.scene.materials[i].unlit = related.changed.scene.materials[i].unlit = false;
     }
     const std::array intensity{std::string("intensity")};
-    quantitiesOf(intensity).front()->push(related.changed, subject, factor);
+    quantitiesOf(intensity).front()->apply(related.changed, subject, factor);
     related.map.light = factor;
 }
 
@@ -54,8 +54,8 @@ void addDarkLights(Related& related, const Subject& subject) {
     Light dark;
     dark.name = "dark";
     dark.intensity = 0;
-    dark.position =
-        (subject.seen ? subject.point : subject.bounds.centre()) + subject.normal * (0.05 * subject.nearest);
+    dark.position = (subject.has_surface ? subject.point : subject.bounds.centre()) +
+                    subject.normal * (0.05 * subject.nearest);
     std::vector<Light>& lights = related.changed.scene.lights;
     lights.insert(lights.begin(), dark);
     dark.kind = LightKind::spot;

@@ -48,21 +48,21 @@ double imageError(const Frame& truth, const Frame& test, const Coverage& where, 
     scale.exposure.factor *= exposure;
     const Image8 a = channelImage(debugMode(Channel::lit), truth, scale),
                  b = channelImage(debugMode(Channel::lit), test, scale);
-    std::vector<double> apart;
+    std::vector<double> differences;
     const auto components = a.data.size() / where.covered.size();
     for (std::size_t i = 0; i < where.covered.size(); ++i) {
         if (!where.covered[i]) continue;
         int max = 0;
         for (std::size_t c = i * components; c < (i + 1) * components; ++c)
             max = std::max(max, std::abs(int{a.data[c]} - int{b.data[c]}));
-        apart.push_back(max);
+        differences.push_back(max);
     }
-    return experiment::nearestRank(std::move(apart), 0.99) / 255.0;
+    return experiment::nearestRank(std::move(differences), 0.99) / 255.0;
 }
 
 // There the reference of captured surfaces traces its own rays through blended surfaces, whose light it
 // filters differently from a path.
-constexpr int blendedReach = 2;
+constexpr int blendedRadius = 2;
 
 // Removes the pixels that `out` selects.
 template <class Out>
@@ -101,10 +101,10 @@ Outcome failedOutcome(const std::string& why) {
 
 }  // namespace
 
-bool isNearBlended(const Image& blended, std::size_t pixel, int reach) {
+bool isNearBlended(const Image& blended, std::size_t pixel, int radius) {
     if (blended.pixels() == 0) return false;
     bool found = false;
-    within(blended, pixel, reach, [&](std::size_t i, int, int) { found = found || *blended.pixel(i) > 0; });
+    within(blended, pixel, radius, [&](std::size_t i, int, int) { found = found || *blended.pixel(i) > 0; });
     return found;
 }
 
@@ -144,7 +144,7 @@ ChosenSeries chosenOf(const std::vector<Series>& wanted,
 
 ChosenSeries seriesOf(const Quantity& quantity, const Subject& subject) {
     Case original = subject.original;
-    quantity.push(original, subject, quantity.original(subject));
+    quantity.apply(original, subject, quantity.original(subject));
     std::vector<std::vector<Change>> changes{{}, {{"gbuffer", "full"}}};
     for (const Change& change : quantity.variants) changes.push_back({change});
     std::vector<Series> wanted;
@@ -178,21 +178,21 @@ Frame Measurer::tracedRays(Scene scene, Settings settings) {
                          .front());
 }
 
-const Measurer::Truth& Measurer::original(const Size& size) {
+const Measurer::GroundTruth& Measurer::original(const Size& size) {
     const auto known = original_.find({size.width, size.height});
     if (known != original_.end()) return known->second;
     Settings settings = subject_.original.settings;
     settings.size = size;
     SceneViews views(subject_.original.scene);
     Renderer renderer(device_, views, pipelines_);
-    Truth truth{litOfSurfaces(renderer, settings), tracedRays(subject_.original.scene, settings)};
+    GroundTruth truth{litOfSurfaces(renderer, settings), tracedRays(subject_.original.scene, settings)};
     return original_.emplace(std::pair(size.width, size.height), std::move(truth)).first->second;
 }
 
-Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure) {
+Outcome Measurer::outcomeOf(const GroundTruth& truth, const Frame& lit, const Frame& rays, double exposure) {
     Outcome outcome;
     Coverage opaque = coverage(truth.lit, truth.lit);
-    remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i, blendedReach); });
+    remove(opaque, [&](std::size_t i) { return isNearBlended(truth.lit.blended, i, blendedRadius); });
     const ChannelStats light = statsOf(Channel::lit, truth.lit, lit, opaque);
     outcome.measured[Measure::light_p99] = knownOrInfinite(light.p99);
     outcome.measured[Measure::light_p999] = knownOrInfinite(light.p999);
@@ -219,31 +219,31 @@ Outcome Measurer::outcomeOf(const Truth& truth, const Frame& lit, const Frame& r
 }
 
 std::string Measurer::fingerprint() {
-    const Truth& truth = original(subject_.original.settings.size);
+    const GroundTruth& truth = original(subject_.original.settings.size);
     return experiment::fingerprint(std::array{&truth.lit, &truth.rays});
 }
 
 Step Measurer::measure(const Quantity& quantity, std::span<const Series> series, double magnitude) {
-    Case pushed = subject_.original;
-    quantity.push(pushed, subject_, magnitude);
+    Case changed = subject_.original;
+    quantity.apply(changed, subject_, magnitude);
     if (on_step_) on_step_(fmt::format("{} {:.4g} {}", quantity.name, magnitude, quantity.unit));
-    return measure(pushed, series, &quantity, magnitude);
+    return measure(changed, series, &quantity, magnitude);
 }
 
-Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> series) {
+Measurer::Drawn Measurer::draw(const Case& changed, std::span<const Series> series) {
     Drawn drawn;
     // One core traces rays while the device renders, and then shades the captured surfaces.
     std::future<Frame> rays =
-        std::async(std::launch::async, [&pushed] { return tracedRays(pushed.scene, pushed.settings); });
+        std::async(std::launch::async, [&changed] { return tracedRays(changed.scene, changed.settings); });
     {
-        SceneViews views(pushed.scene);
+        SceneViews views(changed.scene);
         Renderer renderer(device_, views, pipelines_);
-        drawn.truth.lit = litOfSurfaces(renderer, pushed.settings);
+        drawn.truth.lit = litOfSurfaces(renderer, changed.settings);
         Case faulty;
         std::optional<SceneViews> faulty_views;
         std::optional<Renderer> faulty_renderer;
         if (fault_.scene) {
-            faulty = pushed;
+            faulty = changed;
             fault_.scene(faulty);
             faulty_views.emplace(faulty.scene);
             faulty_renderer.emplace(device_, *faulty_views, pipelines_);
@@ -255,8 +255,8 @@ Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> serie
             std::string& failed = drawn.failed.emplace_back();
             try {
                 Renderer& drawer = faulty_renderer ? *faulty_renderer : renderer;
-                frame = drawer.draw(withoutReference(one.applied(pushed.settings)), drawing(channels));
-                if (fault_.image) fault_.image(pushed, frame);
+                frame = drawer.draw(withoutReference(one.applied(changed.settings)), drawing(channels));
+                if (fault_.image) fault_.image(changed, frame);
             } catch (const std::exception& error) {
                 failed = error.what();
             }
@@ -266,28 +266,28 @@ Measurer::Drawn Measurer::draw(const Case& pushed, std::span<const Series> serie
     return drawn;
 }
 
-Step Measurer::measure(const Case& pushed, std::span<const Series> series, const Quantity* quantity,
+Step Measurer::measure(const Case& changed, std::span<const Series> series, const Quantity* quantity,
                        double magnitude) {
     Step step{magnitude, std::vector<Outcome>(series.size())};
     try {
         // A quantity that only changes images is rendered once.
-        const bool kept = quantity && quantity->of_images && !fault_.scene && !fault_.image;
+        const bool cached = quantity && quantity->of_images && !fault_.scene && !fault_.image;
         Drawn own;
-        Drawn& drawn = kept ? images_ : own;
-        if (drawn.frames.empty() || drawn.frames.size() != series.size()) drawn = draw(pushed, series);
-        std::optional<Truth> same;
+        Drawn& drawn = cached ? images_ : own;
+        if (drawn.frames.empty() || drawn.frames.size() != series.size()) drawn = draw(changed, series);
+        std::optional<GroundTruth> same;
         std::optional<double> moved;
         if (quantity && quantity->same_image) {
-            same = original(pushed.settings.size);
+            same = original(changed.settings.size);
             if (quantity->light) multiply(same->lit.channels.at(Channel::lit), magnitude);
             if (quantity->lengths) multiply(same->rays.channels.at(Channel::depth), magnitude);
             moved = outcomeOf(*same, drawn.truth.lit, drawn.truth.rays).error();
         }
-        const Truth& truth = same ? *same : drawn.truth;
+        const GroundTruth& truth = same ? *same : drawn.truth;
         for (std::size_t i = 0; i < series.size(); ++i) {
             Outcome& outcome = step.outcomes[i];
             outcome = drawn.failed[i].empty()
-                          ? outcomeOf(truth, drawn.frames[i], drawn.frames[i], pushed.exposure)
+                          ? outcomeOf(truth, drawn.frames[i], drawn.frames[i], changed.exposure)
                           : failedOutcome(drawn.failed[i]);
             if (moved) outcome.measured[Measure::reference_moved] = *moved;
             outcome.measured[Measure::compared_pixels] =
@@ -298,7 +298,7 @@ Step Measurer::measure(const Case& pushed, std::span<const Series> series, const
     }
     for (std::size_t i = 0; i < series.size(); ++i) {
         Outcome& outcome = step.outcomes[i];
-        outcome.settings = series[i].applied(pushed.settings);
+        outcome.settings = series[i].applied(changed.settings);
         if (quantity) outcome.varied = quantity->name;
         outcome.measured[Measure::magnitude] = magnitude;
     }

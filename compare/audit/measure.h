@@ -73,7 +73,7 @@ struct Step {
 };
 
 // Whether a blended surface (W x H x 1) is within this many pixels, or in the pixel; empty: nowhere.
-bool isNearBlended(const Image& blended, std::size_t pixel, int reach);
+bool isNearBlended(const Image& blended, std::size_t pixel, int radius);
 
 class Measurer {
 public:
@@ -93,35 +93,36 @@ public:
     std::string fingerprint();
     Step measure(const Quantity& quantity, std::span<const Series> series, double magnitude);
     // Measures an already modified case; by `quantity`, if any.
-    Step measure(const Case& pushed, std::span<const Series> series, const Quantity* quantity = nullptr,
+    Step measure(const Case& changed, std::span<const Series> series, const Quantity* quantity = nullptr,
                  double magnitude = 0);
 
 private:
     // Ground truth for a path: lit of captured surfaces; depth and materials of traced rays.
-    struct Truth {
+    struct GroundTruth {
         Frame lit, rays;
     };
     static Frame litOfSurfaces(Renderer& renderer, Settings settings);
     // Removes from the scene what does not decide where a surface is.
     static Frame tracedRays(Scene scene, Settings settings);
     // Truth of the original subject at an image size.
-    const Truth& original(const Size& size);
+    const GroundTruth& original(const Size& size);
     // `exposure`: Case::exposure.
-    static Outcome outcomeOf(const Truth& truth, const Frame& lit, const Frame& rays, double exposure = 0);
+    static Outcome outcomeOf(const GroundTruth& truth, const Frame& lit, const Frame& rays,
+                             double exposure = 0);
     // Results for a case: its truth, and for each series a Frame or the reason why there is none.
     struct Drawn {
-        Truth truth;
+        GroundTruth truth;
         std::vector<Frame> frames;
         std::vector<std::string> failed;
     };
-    Drawn draw(const Case& pushed, std::span<const Series> series);
+    Drawn draw(const Case& changed, std::span<const Series> series);
 
     Device& device_;
     const Subject& subject_;
     const std::function<void(const std::string&)> on_step_;
     const std::shared_ptr<PipelineSet> pipelines_;
-    std::map<std::pair<int, int>, Truth> original_;  // by image width and height
-    Drawn images_;                                   // of a quantity that only changes images
+    std::map<std::pair<int, int>, GroundTruth> original_;  // by image width and height
+    Drawn images_;                                         // of a quantity that only changes images
     Fault fault_{};
 };
 

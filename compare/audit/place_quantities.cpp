@@ -18,8 +18,8 @@ namespace {
 const glm::dvec3 away = glm::normalize(glm::dvec3(0.8, 0, 0.6));
 
 // Moves vertices far from their mesh's origin; its node moves them back.
-void pushVertex(Case& pushed, const Subject&, double metres) {
-    Scene& scene = pushed.scene;
+void applyVertex(Case& changed, const Subject&, double metres) {
+    Scene& scene = changed.scene;
     const glm::dvec3 offset = metres * away;
     for (Mesh& mesh : scene.meshes)
         for (Primitive& primitive : mesh.primitives) {
@@ -45,7 +45,7 @@ void pushVertex(Case& pushed, const Subject&, double metres) {
 
 // Viewing distance, m.
 double distanceOf(const Subject& subject) {
-    return subject.seen ? subject.distance() : subject.radius();
+    return subject.has_surface ? subject.distance() : subject.radius();
 }
 
 Predicted predictOffset(const Subject& subject, const Settings&, double error) {
@@ -69,17 +69,17 @@ Predicted predictScale(const Subject& subject, const Settings&, double) {
 
 // A far plane beyond the whole scene, m.
 double farOf(const Subject& subject) {
-    return std::isfinite(subject.view.camera.far) ? subject.view.camera.far : 2 * subject.reach();
+    return std::isfinite(subject.view.camera.far) ? subject.view.camera.far : 2 * subject.farthest();
 }
 
-void pushNear(Case& pushed, const Subject& subject, double ratio) {
-    pushed.camera().far = farOf(subject);
-    pushed.camera().near = pushed.camera().far / ratio;
+void applyNear(Case& changed, const Subject& subject, double ratio) {
+    changed.camera().far = farOf(subject);
+    changed.camera().near = changed.camera().far / ratio;
 }
 
 // Rotates the eye around the point in the image's centre, at the same distance, until it sees the surface
 // there under this angle.
-void pushGrazing(Case& pushed, const Subject& subject, double degrees) {
+void applyGrazing(Case& changed, const Subject& subject, double degrees) {
     const glm::dvec3 to_eye = subject.view.eye() - subject.point;
     glm::dvec3 along = to_eye - glm::dot(to_eye, subject.normal) * subject.normal;
     if (!(glm::length(along) > 1e-6 * glm::length(to_eye)))
@@ -88,7 +88,7 @@ void pushGrazing(Case& pushed, const Subject& subject, double degrees) {
     const double angle = glm::radians(degrees);
     const glm::dvec3 direction = std::cos(angle) * glm::normalize(along) + std::sin(angle) * subject.normal;
     const glm::dvec3 eye = subject.point + glm::length(to_eye) * direction;
-    pushed.camera().world_from_camera = lookAt(eye, subject.point);
+    changed.camera().world_from_camera = lookAt(eye, subject.point);
 }
 
 double originalGrazing(const Subject& subject) {
@@ -121,7 +121,7 @@ Predicted predictNear(const Subject& subject, const Settings& settings, double e
     Predicted predicted = roundingOf(settings.depth_format);
     if (settings.depth_format == DepthFormat::d32f) return predicted;
     const double brighter = std::max(1.0, 2 * subject.distance() / localDistance(subject, subject.point));
-    predicted.up = error * farOf(subject) / (subject.reach() * brighter * predicted.up);
+    predicted.up = error * farOf(subject) / (subject.farthest() * brighter * predicted.up);
     return predicted;
 }
 
@@ -129,7 +129,7 @@ Predicted predictNear(const Subject& subject, const Settings& settings, double e
 // inclined surface its depth differs by as much.
 Predicted predictFov(const Subject& subject, const Settings&, double) {
     const glm::dvec3 to_eye = glm::normalize(subject.view.eye() - subject.point);
-    const double facing = subject.seen ? std::abs(glm::dot(to_eye, subject.normal)) : 1;
+    const double facing = subject.has_surface ? std::abs(glm::dot(to_eye, subject.normal)) : 1;
     return {
         .down = glm::degrees(0x1p-24 / std::max(facing, 0.01)),
         .because =
@@ -146,8 +146,8 @@ std::vector<Quantity> placeQuantities() {
          .what = "distance from the origin of scene, lights and camera together",
          .magnitudes = ladder(1, 1e8, 10, {0}),
          .original = originalNone,
-         .push = [](Case& pushed, const Subject&,
-                    double metres) { moveAll(pushed, glm::translate(glm::dmat4(1), metres * away)); },
+         .apply = [](Case& changed, const Subject&,
+                     double metres) { moveAll(changed, glm::translate(glm::dmat4(1), metres * away)); },
          .same_image = true,
          .predict = predictOffset},
         {.name = "vertex",
@@ -155,20 +155,20 @@ std::vector<Quantity> placeQuantities() {
          .what = "distance of vertices from their mesh's origin, which its node compensates",
          .magnitudes = ladder(1, 1e7, 10, {0}),
          .original = originalNone,
-         .push = pushVertex,
+         .apply = applyVertex,
          .because = "vertices are stored relative to the middle of all meshes, which is exact: float32 only "
                     "spans the scene's size"},
         {.name = "scale",
          .what = "factor on all lengths, with intensities adjusted so that the picture stays the same",
          .magnitudes = ladder(1e-6, 1e6),
-         .push = [](Case& pushed, const Subject&, double factor) { scaleLengths(pushed, factor); },
+         .apply = [](Case& changed, const Subject&, double factor) { scaleLengths(changed, factor); },
          .same_image = true,
          .lengths = true,
          .predict = predictScale},
         {.name = "exposure",
          .what = "exposure of the 8-bit pictures, as a factor of the automatic exposure",
          .magnitudes = ladder(1e-30, 1e30, 1e3),
-         .push = [](Case& pushed, const Subject&, double factor) { pushed.exposure = factor; },
+         .apply = [](Case& changed, const Subject&, double factor) { changed.exposure = factor; },
          .of_images = true,
          .because = "exposure multiplies float32 radiance in double, and both pictures are rounded to 8 bits "
                     "after the tone curve"},
@@ -176,7 +176,7 @@ std::vector<Quantity> placeQuantities() {
          .what = "the far plane's distance divided by the near plane's, by moving the near plane",
          .magnitudes = ladder(1e2, 1e9),
          .original = [](const Subject& subject) { return farOf(subject) / subject.view.camera.near; },
-         .push = pushNear,
+         .apply = applyNear,
          .variants = {{"depth-format", "d32f-standard"}, {"depth-format", "d24"}, {"depth-format", "d16"}},
          .predict = predictNear,
          .predicts_formats = true},
@@ -186,8 +186,8 @@ std::vector<Quantity> placeQuantities() {
          .magnitudes = ladder(0.01, 10, 10, {30, 60, 90, 120, 150, 170, 179}),
          .original = [](const Subject& subject) { return glm::degrees(subject.view.camera.yfov); },
          .lacks = {lacksPerspective},
-         .push = [](Case& pushed, const Subject&,
-                    double degrees) { pushed.camera().yfov = glm::radians(degrees); },
+         .apply = [](Case& changed, const Subject&,
+                     double degrees) { changed.camera().yfov = glm::radians(degrees); },
          .predict = predictFov},
         {.name = "grazing",
          .unit = "degrees",
@@ -195,7 +195,7 @@ std::vector<Quantity> placeQuantities() {
          .magnitudes = ladder(0.001, 10, 10, {30, 60, 90}),
          .original = originalGrazing,
          .lacks = {lacksPerspective, lacksSurface},
-         .push = pushGrazing,
+         .apply = applyGrazing,
          .because =
              "the material model clamps n.v to at least 1e-4, and the rasteriser interpolates depth by "
              "plane equations"},

@@ -19,7 +19,7 @@ std::string lacksPerspective(const Subject& subject) {
     return subject.view.camera.orthographic ? "the camera is orthographic" : "";
 }
 std::string lacksSurface(const Subject& subject) {
-    return subject.seen ? "" : "no surface is in view";
+    return subject.has_surface ? "" : "no surface is in view";
 }
 std::string lacksLocalLight(const Subject& subject) {
     return std::ranges::any_of(subject.original.scene.lights, isLocal)

@@ -59,7 +59,7 @@ struct Quantity {
     double (*original)(const Subject&) = originalOne;  // that of the original scene, or one that looks alike
     Preconditions lacks = {};
     // Modifies an original case.
-    void (*push)(Case&, const Subject&, double magnitude);
+    void (*apply)(Case&, const Subject&, double magnitude);
     // Relevant Settings, each tried beside the original ones.
     std::vector<Change> variants = {};
     // Whether the image stays that of the original scene, which is then the truth. `light`, `lengths`:

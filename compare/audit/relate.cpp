@@ -69,7 +69,7 @@ std::map<Channel, double> packedBounds(const Settings& settings) {
 double pixelsPerRadian(const Subject& subject) {
     const Camera& camera = subject.view.camera;
     if (!camera.orthographic) return subject.view.height / (2 * std::tan(camera.yfov / 2));
-    return subject.reach() * subject.view.height / (2 * camera.ymag);
+    return subject.farthest() * subject.view.height / (2 * camera.ymag);
 }
 
 double largestSide(const Scene& scene) {

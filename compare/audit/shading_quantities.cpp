@@ -13,8 +13,8 @@ namespace diptych::audit {
 
 namespace {
 
-void pushRoughness(Case& pushed, const Subject&, double roughness) {
-    for (Material& material : pushed.scene.materials) material.roughness = static_cast<float>(roughness);
+void applyRoughness(Case& changed, const Subject&, double roughness) {
+    for (Material& material : changed.scene.materials) material.roughness = static_cast<float>(roughness);
 }
 
 std::string lacksNormalMap(const Subject& subject) {
@@ -27,24 +27,24 @@ std::string lacksTexture(const Subject& subject) {
     return subject.original.scene.images.empty() ? "no material has a texture" : "";
 }
 
-void pushNormalMap(Case& pushed, const Subject&, double strength) {
-    for (Material& material : pushed.scene.materials)
+void applyNormalMap(Case& changed, const Subject&, double strength) {
+    for (Material& material : changed.scene.materials)
         if (material.normal_texture.texture >= 0) material.normal_scale = static_cast<float>(strength);
 }
 
 // Replaces every surface's emission.
-void pushEmission(Case& pushed, const Subject&, double radiance) {
+void applyEmission(Case& changed, const Subject&, double radiance) {
     const auto sent = static_cast<float>(std::min(radiance, double{std::numeric_limits<float>::max()}));
-    for (Material& material : pushed.scene.materials) material.emissive = glm::vec3(sent);
-    for (auto& [index, parts] : pushed.scene.material_parts) {
+    for (Material& material : changed.scene.materials) material.emissive = glm::vec3(sent);
+    for (auto& [index, parts] : changed.scene.material_parts) {
         parts.emissive = glm::dvec3(1);
         parts.emissive_strength = radiance;
     }
 }
 
 // Sets every vertex colour, beside the material's colour.
-void pushColor(Case& pushed, const Subject&, double factor) {
-    for (Mesh& mesh : pushed.scene.meshes)
+void applyColor(Case& changed, const Subject&, double factor) {
+    for (Mesh& mesh : changed.scene.meshes)
         for (Primitive& primitive : mesh.primitives)
             primitive.colors.assign(primitive.positions.size(),
                                     glm::vec4(glm::vec3(static_cast<float>(factor)), 1));
@@ -57,8 +57,8 @@ void setTexels(std::vector<Value>& texels, Value value) {
         if (i % 4 != 3) texels[i] = value;
 }
 
-void pushTexel(Case& pushed, const Subject&, double fraction) {
-    for (TextureImage& image : pushed.scene.images) {
+void applyTexel(Case& changed, const Subject&, double fraction) {
+    for (TextureImage& image : changed.scene.images) {
         setTexels(image.rgba, static_cast<std::uint8_t>(std::lround(fraction * 0xFF)));
         setTexels(image.rgba16, static_cast<std::uint16_t>(std::lround(fraction * 0xFFFF)));
         setTexels(image.rgba32, static_cast<float>(fraction) * image.largest);
@@ -67,9 +67,9 @@ void pushTexel(Case& pushed, const Subject&, double fraction) {
 
 // Adds a small triangle far towards the directional light. It casts no visible shadow, but shadow maps
 // must reach it.
-void pushCaster(Case& pushed, const Subject& subject, double metres) {
-    if (pushed.settings.shadows == Shadows::off) pushed.settings.shadows = Shadows::pcf;
-    Scene& scene = pushed.scene;
+void applyCaster(Case& changed, const Subject& subject, double metres) {
+    if (changed.settings.shadows == Shadows::off) changed.settings.shadows = Shadows::pcf;
+    Scene& scene = changed.scene;
     const auto sun = std::ranges::find(scene.lights, LightKind::directional, &Light::kind);
     const glm::dvec3 up = -glm::normalize(sun->direction);
     const glm::dvec3 beside =
@@ -111,21 +111,21 @@ Predicted predictCaster(const Subject& subject, const Settings& settings, double
                 "to the scene's size wherever the range begins"};
 }
 
-void pushExponent(Case& pushed, const Subject&, double exponent) {
-    if (pushed.settings.shadows != Shadows::evsm4) pushed.settings.shadows = Shadows::evsm;
-    pushed.settings.evsm_exponent = static_cast<float>(exponent);
-    pushed.settings.evsm_precision = EvsmPrecision::fp32;
+void applyExponent(Case& changed, const Subject&, double exponent) {
+    if (changed.settings.shadows != Shadows::evsm4) changed.settings.shadows = Shadows::evsm;
+    changed.settings.evsm_exponent = static_cast<float>(exponent);
+    changed.settings.evsm_precision = EvsmPrecision::fp32;
 }
 
-void pushHaze(Case& pushed, const Subject&, double density) {
-    pushed.settings.haze = true;
-    pushed.settings.haze_density = static_cast<float>(density);
+void applyHaze(Case& changed, const Subject&, double density) {
+    changed.settings.haze = true;
+    changed.settings.haze_density = static_cast<float>(density);
 }
 
 // The nearest surface is the brightest through the air: once its light underflows float32, the image is
 // empty.
 Predicted predictHaze(const Subject& subject, const Settings& settings, double) {
-    if (settings.haze_march_steps > 0 || !subject.seen) return {};
+    if (settings.haze_march_steps > 0 || !subject.has_surface) return {};
     const Rgb &r = settings.haze_rayleigh, &m = settings.haze_mie;
     const double min = std::min({double{r.r} + m.r, double{r.g} + m.g, double{r.b} + m.b});
     constexpr double opaque = 87;  // e^-87 is float32's smallest normal number
@@ -142,34 +142,34 @@ std::vector<Quantity> shadingQuantities() {
         {.name = "roughness",
          .what = "the roughness factor of every material",
          .magnitudes = ladder(1e-6, 1e-2, 10, {0, 0.02, 0.03, 0.045, 0.06, 0.1, 0.2, 0.5, 1}),
-         .push = pushRoughness,
+         .apply = applyRoughness,
          .variants = {{"shading-precision", "fp16"}},
          .because = "roughness is clamped to at least 0.045, where D is at most 8e4"},
         {.name = "normal_map",
          .what = "the strength of every normal map",
          .magnitudes = ladder(1e-3, 1e9),
          .lacks = {lacksNormalMap},
-         .push = pushNormalMap,
+         .apply = applyNormalMap,
          .fails_at = 0x1p63,
          .because = "squares of the mapped normal's components are float32, which ends at 3e38"},
         {.name = "texel",
          .what = "every texel of every texture except alpha, as a fraction of its type's largest value",
          .magnitudes = {0, 1e-5, 1 / 255.0, 2 / 255.0, 0.05, 0.2, 0.5, 254 / 255.0, 1},
          .lacks = {lacksTexture},
-         .push = pushTexel,
+         .apply = applyTexel,
          .because = "an integer texel is 0 to 1 in at most 16 bits, and a normal map of one "
                     "value is one direction"},
         {.name = "emission",
          .unit = "W/(sr m^2)",
          .what = "the emission of every surface",
          .magnitudes = ladder(1e-12, 1e38, 100),
-         .push = pushEmission,
+         .apply = applyEmission,
          .fails_at = 3.4e38,
          .because = "emission is float32, which ends at 3.4e38"},
         {.name = "color",
          .what = "the colour of every vertex, replacing its own",
          .magnitudes = ladder(1e-38, 1, 100),
-         .push = pushColor,
+         .apply = applyColor,
          .because = "a base colour too dark for float32 adds nothing visible to the specular reflection"},
         {.name = "shadow_depth",
          .unit = "m",
@@ -177,7 +177,7 @@ std::vector<Quantity> shadingQuantities() {
          .magnitudes = ladder(1, 1e8),
          .original = [](const Subject& subject) { return subject.radius(); },
          .lacks = {lacksSun},
-         .push = pushCaster,
+         .apply = applyCaster,
          .variants = {{"shadows", "evsm"}, {"shadows", "msm4"}},
          .predict = predictCaster},
         {.name = "evsm_exponent",
@@ -185,13 +185,13 @@ std::vector<Quantity> shadingQuantities() {
          .magnitudes = {1, 2, 5, 10, 20, 30, 40, 44, 44.36},
          .original = [](const Subject&) { return 10.0; },
          .lacks = {lacksSun},
-         .push = pushExponent,
+         .apply = applyExponent,
          .fails_at = 44.36,
          .because = "the second moment is at most exp(2 x 44.36), the end of float32"},
         {.name = "haze",
          .what = "the density of haze",
          .magnitudes = ladder(1e-9, 1e9),
-         .push = pushHaze,
+         .apply = applyHaze,
          .variants = {{"haze-march-steps", "32"}},
          .predict = predictHaze},
     };

@@ -181,8 +181,8 @@ int auditQuantities(const AuditLine& options, const Settings& settings) {
     });
     checkValidation(opened.device);
     opened.stage.at(0.98, "write");
-    if (const std::size_t kept = auditor.audit().kept; kept > 0)
-        note(options, fmt::format("{} kept from an interrupted run", counted(kept, "step")));
+    if (const std::size_t resumed = auditor.audit().resumed; resumed > 0)
+        note(options, fmt::format("{} kept from an interrupted run", counted(resumed, "step")));
     const std::string json = auditor.write();
     opened.progress.wipe();
     opened.print(output::inText(audit::closingOf(auditor.audit())));

@@ -24,8 +24,8 @@ audit::QuantityAudit faultyAudit(audit::Measurer& measurer, const Subject& subje
         .what = "the lamp's intensity",
         .magnitudes = {1, 8},
         .original = [](const Subject&) { return 1.0; },
-        .push = [](Case& pushed, const Subject&,
-                   double candela) { pushed.scene.lights[0].intensity = static_cast<float>(candela); }};
+        .apply = [](Case& changed, const Subject&,
+                    double candela) { changed.scene.lights[0].intensity = static_cast<float>(candela); }};
     measurer.plant({.image = [](const Case& drawn, Frame& frame) {
         if (drawn.scene.lights[0].intensity < 4) return;
         for (float& value : frame.channels.at(Channel::lit).data) value *= 4;

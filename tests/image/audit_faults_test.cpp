@@ -111,9 +111,9 @@ TEST(AuditFaults, StandardDepthBreaksWhereTheorySays) {
     const Quantity& near = quantityNamed("near");
     // At the image's centre, where most pixels are; the magnitude is far / near.
     const double distance = glm::distance(subject.point, subject.view.eye());
-    Case pushed = subject.original;
-    near.push(pushed, subject, 1e3);
-    const double far = pushed.camera().far;
+    Case changed = subject.original;
+    near.apply(changed, subject, 1e3);
+    const double far = changed.camera().far;
     const double predicted = percent * far / (distance * 2 * 0x1p-25);
     expectWithinTwo(limitOf(measurer, near, 1e2, 1e9), predicted, "standard depth");
 }
@@ -132,8 +132,8 @@ Scene highlight() {
     return scene;
 }
 
-void pushSharpness(Case& pushed, const Subject&, double roughness) {
-    for (Material& material : pushed.scene.materials) material.roughness = static_cast<float>(roughness);
+void applySharpness(Case& changed, const Subject&, double roughness) {
+    for (Material& material : changed.scene.materials) material.roughness = static_cast<float>(roughness);
 }
 
 // The denominator (n.h)^2 (alpha^2 - 1) + 1 equals alpha^2 plus the squared angle, computed from numbers
@@ -170,14 +170,14 @@ TEST(AuditFaults, AnUnguardedDBreaksWhereTheorySays) {
                                     .what = "the roughness of all",
                                     .magnitudes = {0.01, 1},
                                     .original = [](const Subject&) { return 1.0; },
-                                    .push = pushSharpness};
+                                    .apply = applySharpness};
     const double predicted = std::pow(2 * 1.5 * 0x1p-24 / percent, 0.25);
     expectWithinTwo(limitOf(measurer, sharpness, 0.5, 0.01), predicted, "D");
 }
 
 // `degrees`: full cone angle; the falloff starts at the axis.
-void pushSoftCone(Case& pushed, const Subject&, double degrees) {
-    for (Light& light : pushed.scene.lights) {
+void applySoftCone(Case& changed, const Subject&, double degrees) {
+    for (Light& light : changed.scene.lights) {
         light.inner_cone = 0;
         light.outer_cone = static_cast<float>(degrees / 2 * std::numbers::pi / 180);
     }
@@ -219,7 +219,7 @@ TEST(AuditFaults, AnUnguardedConeBreaksWhereTheorySays) {
                                .what = "the whole angle of the spot",
                                .magnitudes = {1, 90},
                                .original = [](const Subject&) { return 90.0; },
-                               .push = pushSoftCone};
+                               .apply = applySoftCone};
     const double predicted = 2 * std::acos(1 - 0.001 * 0.995) * 180 / std::numbers::pi;
     expectWithinTwo(limitOf(measurer, cone, 90, 1), predicted, "cone");
 }

@@ -107,9 +107,9 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
         // scene.
         for (const auto& [name, magnitude] :
              {std::pair("offset", 1e7), {"scale", 1e-4}, {"scale", 1e5}, {"intensity", 1e9}}) {
-            const std::vector<Outcome> pushed = errorsAt(measurer, name, magnitude);
+            const std::vector<Outcome> changed = errorsAt(measurer, name, magnitude);
             for (std::size_t path = 0; path < 2; ++path)
-                EXPECT_LE(pushed[path][audit::Measure::light_p99],
+                EXPECT_LE(changed[path][audit::Measure::light_p99],
                           rest[path][audit::Measure::light_p99] + 1e-2)
                     << what << ", " << name << " " << magnitude << ", path " << path << ": "
                     << rest[path][audit::Measure::light_p99] << " at rest";
@@ -121,7 +121,7 @@ TEST(AuditImages, WhatApproximatesIsNoWorseAtAnExtreme) {
 TEST(AuditImages, ThickAirIsMeasuredUntilItsLightEnds) {
     const Scene scene = makeBuiltin("spots");
     const Subject subject = auditedScene(scene);
-    ASSERT_TRUE(subject.seen);
+    ASSERT_TRUE(subject.has_surface);
     Measurer measurer(device(), subject, {});
     // For red, which the air attenuates least. The farthest point is twice as far, within float32's range.
     const double depth_35 = 35 / (2.58e-5 * subject.nearest);

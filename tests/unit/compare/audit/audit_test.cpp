@@ -254,15 +254,15 @@ TEST(Audit, EveryQuantityIsPushedFromWhereTheSceneIs) {
     for (const Quantity& quantity : quantities()) {
         EXPECT_TRUE(std::ranges::is_sorted(quantity.magnitudes)) << quantity.name;
         if (!quantity.lacks(subject).empty()) continue;
-        Case pushed = subject.original;
-        quantity.push(pushed, subject, quantity.magnitudes.back());
+        Case changed = subject.original;
+        quantity.apply(changed, subject, quantity.magnitudes.back());
         const bool same =
-            pushed.settings == subject.original.settings && pushed.exposure == 0 &&
-            pushed.scene.materials.front().roughness == subject.original.scene.materials.front().roughness &&
+            changed.settings == subject.original.settings && changed.exposure == 0 &&
+            changed.scene.materials.front().roughness == subject.original.scene.materials.front().roughness &&
             quantity.name != "roughness" && quantity.name != "normal_map" &&
             quantity.name != "texel" &&  // this file has no texture
-            triangleCount(pushed.scene) == triangles && lightsFileOf(pushed) == lights &&
-            glbOf(*flattened(pushed)) == glb;
+            triangleCount(changed.scene) == triangles && lightsFileOf(changed) == lights &&
+            glbOf(*flattened(changed)) == glb;
         EXPECT_FALSE(same) << quantity.name << " changes nothing";
         EXPECT_FALSE(seriesOf(quantity, subject).series.empty()) << quantity.name;
     }
@@ -279,7 +279,7 @@ TEST(Audit, ASceneMovesAndGrowsAsAWhole) {
                glm::dvec3(c.camera().world_from_camera[3]);
     };
     Case moved = subject.original;
-    quantityOf("offset").push(moved, subject, 1e6);
+    quantityOf("offset").apply(moved, subject, 1e6);
     EXPECT_NEAR(glm::distance(glm::dvec3(moved.camera().world_from_camera[3]), subject.view.eye()), 1e6,
                 1e-3);
     EXPECT_NEAR(glm::distance(relative(moved), relative(subject.original)), 0, 1e-8);
@@ -287,16 +287,16 @@ TEST(Audit, ASceneMovesAndGrowsAsAWhole) {
         glm::distance(moved.scene.lights.back().position, subject.original.scene.lights.back().position), 1e6,
         1e-3);
     Case grown = subject.original;
-    quantityOf("scale").push(grown, subject, 100);
+    quantityOf("scale").apply(grown, subject, 100);
     EXPECT_NEAR(glm::distance(relative(grown), 100.0 * relative(subject.original)), 0, 1e-9);
     EXPECT_NEAR(grown.camera().near, 100 * subject.original.camera().near, 1e-9);
     Case baked = subject.original;
-    quantityOf("vertex").push(baked, subject, 1e4);
+    quantityOf("vertex").apply(baked, subject, 1e4);
     const Bounds before = worldBounds(subject.original.scene, poseAt(subject.original.scene, 0)),
                  after = worldBounds(baked.scene, poseAt(baked.scene, 0));
     EXPECT_NEAR(glm::distance(before.centre(), after.centre()), 0, 1e-2);  // rounded to float32 at 1e4 m
     Case cut = subject.original;
-    quantityOf("triangles").push(cut, subject, 1e5);
+    quantityOf("triangles").apply(cut, subject, 1e5);
     EXPECT_GT(triangleCount(cut.scene), 5e4);
     const Bounds whole = worldBounds(cut.scene, poseAt(cut.scene, 0));
     EXPECT_NEAR(glm::distance(before.min, whole.min), 0, 1e-5);
