@@ -89,8 +89,8 @@ Json jsonOf(const SeriesResult& of, const Relation& relation) {
     if (!of.comparison.failed.empty()) json["failed"] = of.comparison.failed;
     json["tolerance"] = of.tolerance.describe();
     json["pixels"] = {{"covered", of.comparison.covered},
-                      {"set_aside", of.comparison.aside},
-                      {"most_set_aside", of.comparison.max_aside},
+                      {"set_aside", of.comparison.excluded},
+                      {"most_set_aside", of.comparison.max_excluded},
                       {"filtered_otherwise", of.comparison.filtered},
                       {"most_filtered_otherwise", of.comparison.max_filtered}};
     json["channels"] = arrayOf(of.comparison.channels, [](const ChannelResult& channel) -> Json {

@@ -28,8 +28,8 @@ namespace {
 // Roundings of a term of lit from the vertex on, without those of the sum: transform, interpolation,
 // normalisation, D, V, F, attenuation, each of some ten operations.
 constexpr double roundingsOfATerm = 128;
-// Other terms of lit: emission, ambient light, lightmap, the environment's two, haze, and products of a
-// sum.
+// Terms of lit beside those of its lights: emission, ambient light, the lightmap, the environment's diffuse
+// and specular light, and haze. Two more for factors of the whole sum, such as transmittance.
 constexpr double termsBesideLights = 8;
 // Differences of positions one pixel apart, across and down. Each of the four positions rounds some seven
 // times: three products, three sums and an interpolation.
@@ -200,7 +200,7 @@ std::uint64_t RelationMeasurer::tied() {
         RelationTolerance tolerance;
         tolerance.reorders = true;
         const Frame back = mappedBack(*changed.frames[0], related.map);
-        tied_ = std::max(*tied_, evaluate(*original.frames[0], back, tolerance).aside);
+        tied_ = std::max(*tied_, evaluate(*original.frames[0], back, tolerance).excluded);
     }
     return *tied_;
 }
@@ -269,8 +269,9 @@ RelationResult RelationMeasurer::measure(const Relation& relation, const std::fu
     }
     // Visibility among coinciding surfaces is arbitrary.
     if (relation.equality != Equality::rounding && !relation.reorders) return result;
-    const bool many = std::ranges::any_of(
-        result.series, [](const SeriesResult& of) { return of.comparison.aside > of.comparison.max_aside; });
+    const bool many = std::ranges::any_of(result.series, [](const SeriesResult& of) {
+        return of.comparison.excluded > of.comparison.max_excluded;
+    });
     if (spoil || !many || tied() <= result.series.front().comparison.covered / 100) return result;
     result.lacks =
         fmt::format("{} show coinciding surfaces, where either may be visible", counted(tied(), "pixel"));

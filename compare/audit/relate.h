@@ -62,7 +62,7 @@ struct FrameResult {
     std::uint64_t covered = 0;            // pixels that show a surface in either image
     // Pixels excluded because they show another triangle (rounding: beside an edge; reorders: of equal
     // depth), and the largest permitted number.
-    std::uint64_t aside = 0, max_aside = 0;
+    std::uint64_t excluded = 0, max_excluded = 0;
     // rounding: pixels of textured materials whose surface differs by a step of the filter, and the
     // largest permitted number. lit is not compared there.
     std::uint64_t filtered = 0, max_filtered = 0;

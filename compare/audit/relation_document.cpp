@@ -45,9 +45,9 @@ std::string describeWorst(const SeriesResult& of) {
         out = fmt::format("{} {}{}, allowed {}, at {},{}", debugMode(worst->mode).name, number(worst->error),
                           of.tolerance.equality == Equality::bits ? " ULP" : "", number(worst->allowed),
                           worst->x, worst->y);
-    if (comparison.aside > 0)
-        out += fmt::format("; another surface at {} (at most {})", counted(comparison.aside, "pixel"),
-                           comparison.max_aside);
+    if (comparison.excluded > 0)
+        out += fmt::format("; another surface at {} (at most {})", counted(comparison.excluded, "pixel"),
+                           comparison.max_excluded);
     if (comparison.filtered > 0)
         out += fmt::format("; a texture filtered differently at {} (at most {})",
                            counted(comparison.filtered, "pixel"), comparison.max_filtered);

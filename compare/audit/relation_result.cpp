@@ -28,12 +28,13 @@ constexpr double minAlpha = 1e-4;  // below it a highlight is smaller than any p
 // = 2 pi OPD: as p changes by its own size at most, each changes by at most 14.
 constexpr double filmSlope = 30;
 
-// Moving a vertex by one step moves an edge by as much. Over the length of an edge that crosses a pixel, 2
-// steps of it change sides, for either of two edges. Twice that, because they do not fall evenly.
-constexpr std::uint64_t edgesForOneAside = 16;
+// Covered edge pixels for each pixel that may be excluded. A step of a vertex moves an edge by as much. Over
+// the length of an edge that crosses a pixel, 2 steps of it change sides, for either of two edges. Twice
+// that, because they do not fall evenly.
+constexpr std::uint64_t edgesPerExcluded = 16;
 constexpr std::uint64_t fewPixels = 8;  // chance decides about so few
 // Surfaces of equal depth are modelling accidents.
-constexpr std::uint64_t pixelsForOneTie = 100;
+constexpr std::uint64_t pixelsPerTie = 100;
 
 double largest(const float* pixel, int components) {
     double max = 0;
@@ -42,8 +43,8 @@ double largest(const float* pixel, int components) {
     return max;
 }
 
-// Infinite if one value is not finite and the other is not the same.
-double apart(const float* a, const float* b, int components) {
+// Of the components. Infinite if one value is not finite and the other is not the same.
+double largestDifference(const float* a, const float* b, int components) {
     double max = 0;
     for (int c = 0; c < components; ++c) {
         if (a[c] == b[c] || (std::isnan(a[c]) && std::isnan(b[c]))) continue;
@@ -60,8 +61,8 @@ double fractionOf(double error, double allowed) {
 }
 
 // In ulps of the largest component.
-double ulpsApart(const float* a, const float* b, int components) {
-    const double difference = apart(a, b, components);
+double ulpDifference(const float* a, const float* b, int components) {
+    const double difference = largestDifference(a, b, components);
     if (difference == 0 || difference == unbounded) return difference;
     const auto top = static_cast<float>(std::max(largest(a, components), largest(b, components)));
     return difference / (double{std::nextafter(top, std::numeric_limits<float>::infinity())} - double{top});
@@ -86,10 +87,10 @@ public:
     FrameResult run() {
         FrameResult result;
         result.covered = where_.count;
-        aside_.assign(where_.covered.size(), false);
+        excluded_.assign(where_.covered.size(), false);
         filtered_.assign(where_.covered.size(), false);
-        if (tolerance_.equality == Equality::rounding) setEdgesAside(result);
-        if (tolerance_.reorders) setTiesAside(result);
+        if (tolerance_.equality == Equality::rounding) excludeEdges(result);
+        if (tolerance_.reorders) excludeTies(result);
         if (tolerance_.equality == Equality::rounding) findFiltered(result);
         double max = -1;
         for (const Channel mode : relatedChannels()) {
@@ -115,7 +116,8 @@ private:
     }
 
     double difference(Channel mode, std::size_t pixel) const {
-        return apart(original(mode).pixel(pixel), changed(mode).pixel(pixel), original(mode).components);
+        return largestDifference(original(mode).pixel(pixel), changed(mode).pixel(pixel),
+                                 original(mode).components);
     }
     // The largest component in either image.
     double size(Channel mode, std::size_t pixel) const {
@@ -137,7 +139,8 @@ private:
         for (const Frame* frame : {&original_, &changed_}) {
             const Image &image = frame->channels.at(mode), &ids = frame->channels.at(Channel::material_id);
             aroundPixel(image, pixel, [&](std::size_t other) {
-                const double change = apart(image.pixel(pixel), image.pixel(other), image.components);
+                const double change =
+                    largestDifference(image.pixel(pixel), image.pixel(other), image.components);
                 if (change == unbounded) return;
                 any = std::max(any, change);
                 if (ids.data[pixel] != ids.data[other]) return;
@@ -155,14 +158,14 @@ private:
     }
 
     // Difference of normals of a lobe, radians, beyond the packing error; normals are compared separately.
-    double normalApart(Channel mode, std::size_t pixel) const {
+    double normalDifference(Channel mode, std::size_t pixel) const {
         return std::max(0.0, difference(mode, pixel) - packed(mode));
     }
     // Largest relative change of a lobe's light by the change of its normal. Per radian ln D of GGX changes
     // by 2 / alpha if the half vector is alpha away; cosines, Smith's and Fresnel's factors by some 4.
     double lightByNormal(Channel normals, Channel roughnesses, std::size_t pixel) const {
         const double roughness = original(roughnesses).data[pixel];
-        return (2 / std::max(roughness * roughness, minAlpha) + 4) * normalApart(normals, pixel);
+        return (2 / std::max(roughness * roughness, minAlpha) + 4) * normalDifference(normals, pixel);
     }
     // A sheen's ln D changes by cot(theta_h) / alpha, which is less than 2 / alpha where D is not small. The
     // sheen has a least roughness, and the normal of the base.
@@ -172,11 +175,11 @@ private:
             return 0;
         const double roughness = std::max(double{original(Channel::sheen_roughness).data[pixel]},
                                           double{gpu::MIN_PERCEPTUAL_ROUGHNESS});
-        return (2 / (roughness * roughness) + 4) * normalApart(Channel::normals, pixel);
+        return (2 / (roughness * roughness) + 4) * normalDifference(Channel::normals, pixel);
     }
     double lightByFilm(std::size_t pixel) const {
         return isKnown(Channel::iridescence) && original(Channel::iridescence).data[pixel] > 0
-                   ? filmSlope * normalApart(Channel::normals, pixel)
+                   ? filmSlope * normalDifference(Channel::normals, pixel)
                    : 0;
     }
     double lightByNormals(std::size_t pixel) const {
@@ -222,43 +225,43 @@ private:
         aroundPixel(ids, pixel, [&](std::size_t other) {
             const double far = std::max(depth.data[pixel], depth.data[other]);
             found = found || ids.data[pixel] != ids.data[other] ||
-                    apart(facets.pixel(pixel), facets.pixel(other), 3) > 1e-3 ||
+                    largestDifference(facets.pixel(pixel), facets.pixel(other), 3) > 1e-3 ||
                     std::abs(double{depth.data[pixel]} - double{depth.data[other]}) > 0.01 * far;
         });
         return found;
     }
 
-    void setEdgesAside(FrameResult& result) {
+    void excludeEdges(FrameResult& result) {
         std::uint64_t edges = 0;
-        for (std::size_t i = 0; i < aside_.size(); ++i) {
+        for (std::size_t i = 0; i < excluded_.size(); ++i) {
             const bool beside = isBesideEdge(original_, i),
                        blended = tolerance_.blended && isNearBlended(*tolerance_.blended, i, 1);
             edges += beside || blended;
-            aside_[i] =
+            excluded_[i] =
                 (beside &&
                  (original(Channel::material_id).data[i] != changed(Channel::material_id).data[i] ||
                   !isWithinRounding(Channel::depth, i) || !isWithinRounding(Channel::geometric_normal, i))) ||
                 (blended && !isWithinRounding(Channel::lit, i));
-            result.aside += aside_[i];
+            result.excluded += excluded_[i];
         }
-        result.max_aside = std::max(fewPixels, edges / edgesForOneAside);
+        result.max_excluded = std::max(fewPixels, edges / edgesPerExcluded);
     }
 
-    void setTiesAside(FrameResult& result) {
-        for (std::size_t i = 0; i < aside_.size(); ++i) {
+    void excludeTies(FrameResult& result) {
+        for (std::size_t i = 0; i < excluded_.size(); ++i) {
             if (original(Channel::depth).data[i] != changed(Channel::depth).data[i]) continue;
-            aside_[i] = std::ranges::any_of(relatedChannels(), [&](Channel mode) {
+            excluded_[i] = std::ranges::any_of(relatedChannels(), [&](Channel mode) {
                 return mode != Channel::lit && isKnown(mode) && difference(mode, i) > 0;
             });
-            result.aside += aside_[i];
+            result.excluded += excluded_[i];
         }
-        result.max_aside = std::max(fewPixels, where_.count / pixelsForOneTie);
+        result.max_excluded = std::max(fewPixels, where_.count / pixelsPerTie);
     }
 
     void findFiltered(FrameResult& result) {
         std::uint64_t textured = 0;
-        for (std::size_t i = 0; i < aside_.size(); ++i) {
-            if (!where_.covered[i] || aside_[i] || !isTextured(i)) continue;
+        for (std::size_t i = 0; i < excluded_.size(); ++i) {
+            if (!where_.covered[i] || excluded_[i] || !isTextured(i)) continue;
             ++textured;
             filtered_[i] = std::ranges::any_of(relatedChannels(), [&](Channel mode) {
                 return mode != Channel::lit && mode != Channel::material_id && mode != Channel::depth &&
@@ -276,7 +279,7 @@ private:
         if (tolerance_.equality == Equality::bits ||
             (tolerance_.equality == Equality::sums && mode != Channel::lit)) {
             allowed = tolerance_.ulps;
-            return ulpsApart(p, q, components);
+            return ulpDifference(p, q, components);
         }
         if (tolerance_.equality == Equality::rounding) {
             const bool normal = mode == Channel::normals || mode == Channel::clearcoat_normal;
@@ -291,7 +294,7 @@ private:
             const double may =
                 tolerance_.relative * std::max(std::abs(double{p[c]}), std::abs(double{q[c]})) +
                 std::numeric_limits<float>::min();
-            const double is = apart(p + c, q + c, 1);
+            const double is = largestDifference(p + c, q + c, 1);
             if (c > 0 && fractionOf(is, may) <= worst) continue;
             worst = fractionOf(is, may);
             error = is;
@@ -304,16 +307,16 @@ private:
         const Image& image = original(mode);
         used = Image(image.width, image.height, 1);
         ChannelResult result{.mode = mode};
-        for (std::size_t i = 0; i < aside_.size(); ++i) {
-            if (aside_[i] || (filtered_[i] && mode == Channel::lit)) continue;
+        for (std::size_t i = 0; i < excluded_.size(); ++i) {
+            if (excluded_[i] || (filtered_[i] && mode == Channel::lit)) continue;
             double allowed = 0;
             const double error = errorAt(mode, i, allowed);
             if (error == 0) continue;
-            const double part = fractionOf(error, allowed);
-            used.data[i] = static_cast<float>(part);
-            result.beyond += part > 1;
-            if (part <= result.used && result.x >= 0) continue;
-            result.used = part;
+            const double fraction = fractionOf(error, allowed);
+            used.data[i] = static_cast<float>(fraction);
+            result.beyond += fraction > 1;
+            if (fraction <= result.used && result.x >= 0) continue;
+            result.used = fraction;
             result.error = error;
             result.allowed = allowed;
             result.x = static_cast<int>(i) % image.width;
@@ -327,7 +330,7 @@ private:
     const Coverage where_;
     const double light_floor_ =
         PixelError(ErrorKind::relative, ChannelKind::color, original(Channel::lit), where_).floor();
-    std::vector<bool> aside_, filtered_;
+    std::vector<bool> excluded_, filtered_;
 };
 
 void turnBack(Image& image, const glm::dmat3& back) {
@@ -374,7 +377,7 @@ std::string RelationTolerance::describe() const {
 }
 
 bool FrameResult::passes() const {
-    return failed.empty() && aside <= max_aside && filtered <= max_filtered &&
+    return failed.empty() && excluded <= max_excluded && filtered <= max_filtered &&
            std::ranges::all_of(channels, [](const ChannelResult& of) { return of.beyond == 0; });
 }
 

@@ -200,8 +200,8 @@ TEST(RelationResult, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
     const FrameResult beside =
         evaluate(original, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::rounding));
     EXPECT_TRUE(beside.passes());
-    EXPECT_EQ(beside.aside, 1u);
-    EXPECT_EQ(beside.max_aside, 8u) << "of few edges";
+    EXPECT_EQ(beside.excluded, 1u);
+    EXPECT_EQ(beside.max_excluded, 8u) << "of few edges";
     // In the middle of a wall the changed pixel makes its own edge, but the given image has none there.
     EXPECT_FALSE(evaluate(original, shows(2, 3), toleranceFor(Equality::rounding)).passes());
     // A whole column exceeds the allowed number of pixels.
@@ -210,7 +210,7 @@ TEST(RelationResult, AnotherSurfaceIsSetAsideBesideAnEdgeAlone) {
         for (const int x : {relatedWidth / 2 - 1, relatedWidth / 2})
             changed.channels[Channel::material_id].at(x, y) =
                 1 - original.channels.at(Channel::material_id).at(x, y);
-    EXPECT_GT(evaluate(original, changed, toleranceFor(Equality::rounding)).aside, 8u);
+    EXPECT_GT(evaluate(original, changed, toleranceFor(Equality::rounding)).excluded, 8u);
     EXPECT_FALSE(evaluate(original, changed, toleranceFor(Equality::rounding)).passes());
     // Bitwise equality has no tolerance at edges.
     EXPECT_FALSE(evaluate(original, shows(relatedWidth / 2 - 1, 3), toleranceFor(Equality::bits)).passes());
@@ -224,7 +224,7 @@ TEST(RelationResult, OfOneDepthEitherSurfaceMayBeSeen) {
     changed.channels[Channel::material_id].at(2, 3) = 1;
     changed.channels[Channel::lit].at(2, 3, 0) = 0.9f;
     EXPECT_TRUE(evaluate(original, changed, tolerance).passes());
-    EXPECT_EQ(evaluate(original, changed, tolerance).aside, 1u);
+    EXPECT_EQ(evaluate(original, changed, tolerance).excluded, 1u);
     changed.channels[Channel::depth].at(2, 3) = 1.5f;
     EXPECT_FALSE(evaluate(original, changed, tolerance).passes());
     // The same surface must have the same light.
