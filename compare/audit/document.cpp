@@ -217,7 +217,7 @@ output::Table stepTable(const Audit& audit) {
                       fmt::format("{}", fmt::join(changes, " ")), digits(outcome.error()),
                       digits(outcome[Measure::light_p99]), digits(outcome[Measure::depth_p99]),
                       digits(outcome[Measure::flip]),
-                      std::to_string(outcome.whole(Measure::misplaced_pixels)),
+                      std::to_string(outcome.whole(Measure::material_mismatch_pixels)),
                       std::to_string(outcome.whole(Measure::nonfinite_pixels)), outcome.failed}});
             }
     return table;

@@ -56,9 +56,10 @@ bool hasOtherLight(const Subject& subject) {
                                [](const Light& light) { return !isLocal(light) && light.intensity > 0; });
 }
 
-// A light at height h, scaled to equal brightness at the centre, is h^3 as bright elsewhere, where other
-// light outshines it. Its height then only matters in an area as wide as h. Before rounding of h matters,
-// that area is less than the hundredth of the image that a 99th percentile ignores.
+// A light at height h above a surface, scaled to the same brightness at its foot, is only (h / r)^3 as
+// bright at a larger distance r. Other light outshines it there, so its height only matters in an area
+// about as wide as h. Before rounding of h matters, that area is smaller than the hundredth of the image
+// that a 99th percentile ignores.
 Predicted predictDistance(const Subject& subject, const Settings&, double error) {
     if (hasOtherLight(subject))
         return {.because =

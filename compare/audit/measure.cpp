@@ -94,7 +94,7 @@ Outcome failedOutcome(const std::string& why) {
     Outcome outcome;
     for (const Measure error : {Measure::light_p99, Measure::light_p999, Measure::depth_p99, Measure::flip})
         outcome.measured[error] = infinity;
-    outcome.measured[Measure::misplaced_pixels] = outcome.measured[Measure::nonfinite_pixels] = 0;
+    outcome.measured[Measure::material_mismatch_pixels] = outcome.measured[Measure::nonfinite_pixels] = 0;
     outcome.failed = why;
     return outcome;
 }
@@ -204,7 +204,7 @@ Outcome Measurer::outcomeOf(const GroundTruth& truth, const Frame& lit, const Fr
     Coverage alike = coverage(truth.rays, truth.rays);
     const std::size_t before = alike.count;
     remove(alike, [&](std::size_t i) { return there.data[i] != here.data[i]; });
-    outcome.measured[Measure::misplaced_pixels] = static_cast<double>(before - alike.count);
+    outcome.measured[Measure::material_mismatch_pixels] = static_cast<double>(before - alike.count);
     outcome.measured[Measure::depth_p99] =
         knownOrInfinite(statsOf(Channel::depth, truth.rays, rays, alike).p99);
     outcome.measured[Measure::flip] =

@@ -44,7 +44,7 @@ bool isPrecise(const Settings& settings) {
 std::span<const Quantity> quantities() {
     static const std::vector<Quantity> all = [] {
         std::vector<Quantity> made;
-        for (const auto& group : {placeQuantities, lightQuantities, shadingQuantities, amountQuantities})
+        for (const auto& group : {transformQuantities, lightQuantities, shadingQuantities, amountQuantities})
             std::ranges::move(group(), std::back_inserter(made));
         return made;
     }();

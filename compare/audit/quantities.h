@@ -102,10 +102,10 @@ inline std::vector<const Quantity*> quantitiesOf(std::span<const std::string> na
 }
 
 // Quantities by subject; quantities() returns all.
-std::vector<Quantity> placeQuantities();    // position and size of the scene, and its camera
-std::vector<Quantity> lightQuantities();    // lights
-std::vector<Quantity> shadingQuantities();  // materials, shadow maps and haze
-std::vector<Quantity> amountQuantities();   // amounts: lights, triangles, pixels, seconds
+std::vector<Quantity> transformQuantities();  // position and size of the scene, and its camera
+std::vector<Quantity> lightQuantities();      // lights
+std::vector<Quantity> shadingQuantities();    // materials, shadow maps and haze
+std::vector<Quantity> amountQuantities();     // amounts: lights, triangles, pixels, seconds
 
 // first, first * step, ... up to last, all rounded to three digits; and others, in ascending order.
 std::vector<double> ladder(double first, double last, double step = 10,

@@ -333,11 +333,11 @@ private:
     std::vector<bool> excluded_, filtered_;
 };
 
-void turnBack(Image& image, const glm::dmat3& back) {
+void rotateBack(Image& image, const glm::dmat3& back) {
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         float* const v = image.pixel(i);
-        const glm::dvec3 turned = back * glm::dvec3(v[0], v[1], v[2]);
-        for (int c = 0; c < 3; ++c) v[c] = static_cast<float>(turned[c]);
+        const glm::dvec3 rotated = back * glm::dvec3(v[0], v[1], v[2]);
+        for (int c = 0; c < 3; ++c) v[c] = static_cast<float>(rotated[c]);
     }
 }
 
@@ -400,7 +400,7 @@ Frame mappedBack(const Frame& changed, const PixelMap& map) {
         if (mode == Channel::depth) divide(image, map.length);
         if (mode == Channel::normals || mode == Channel::geometric_normal ||
             mode == Channel::clearcoat_normal)
-            if (map.turn != glm::dmat3(1)) turnBack(image, glm::transpose(map.turn));
+            if (map.rotation != glm::dmat3(1)) rotateBack(image, glm::transpose(map.rotation));
         if (mode == Channel::material_id && !map.ids.empty())
             for (float& id : image.data)
                 if (id >= 0) id = static_cast<float>(map.ids.at(static_cast<std::size_t>(id)));

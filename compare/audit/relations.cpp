@@ -14,7 +14,7 @@ std::string_view nameOf(Equality equality) {
 std::span<const Relation> relations() {
     static const std::vector<Relation> all = [] {
         std::vector<Relation> made;
-        for (const auto& group : {lightRelations, placeRelations, geometryRelations, settingRelations})
+        for (const auto& group : {lightRelations, transformRelations, geometryRelations, settingRelations})
             std::ranges::move(group(), std::back_inserter(made));
         return made;
     }();

@@ -17,12 +17,12 @@ namespace diptych::audit {
 
 // Maps pixels of the changed image to the original one, and their values.
 struct PixelMap {
-    int border = 0;         // pixels on each side that only the changed image has
-    bool mirrored = false;  // left and right are swapped, after removing the border
-    double light = 1;       // factor of radiance
-    double length = 1;      // factor of lengths
-    glm::dmat3 turn{1};     // rotates vectors of the original image into the changed one; orthogonal
-    std::vector<int> ids;   // original material of each material of the changed scene; empty: the same
+    int border = 0;          // pixels on each side that only the changed image has
+    bool mirrored = false;   // left and right are swapped, after removing the border
+    double light = 1;        // factor of radiance
+    double length = 1;       // factor of lengths
+    glm::dmat3 rotation{1};  // rotates vectors of the original image into the changed one; orthogonal
+    std::vector<int> ids;    // original material of each material of the changed scene; empty: the same
 };
 
 // The two cases of a relation; both are the original one until it changes them.
@@ -62,10 +62,10 @@ inline std::vector<const Relation*> relationsOf(std::span<const std::string> nam
 }
 
 // Relations by subject; relations() returns all.
-std::vector<Relation> lightRelations();     // lights and everything that emits light
-std::vector<Relation> placeRelations();     // position of the scene, and its camera
-std::vector<Relation> geometryRelations();  // equivalent descriptions of the same surfaces
-std::vector<Relation> settingRelations();   // Settings that must not matter
+std::vector<Relation> lightRelations();      // lights and everything that emits light
+std::vector<Relation> transformRelations();  // position of the scene, and its camera
+std::vector<Relation> geometryRelations();   // equivalent descriptions of the same surfaces
+std::vector<Relation> settingRelations();    // Settings that must not matter
 
 // Shared preconditions.
 // The texels of shadow maps fall on other points once the scene is moved.

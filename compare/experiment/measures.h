@@ -51,7 +51,7 @@ struct NamedMeasure {
     X(unsorted_fragments, "counters", "unsorted_fragments", "count", sum, "unsorted",                        \
       "blended fragments that overflowed their list")                                                        \
     X(unsorted_pixels, "counters", "unsorted_pixels", "count", sum, "unsorted pixels", "of these fragments") \
-    X(misplaced_pixels, "counters", "misplaced_pixels", "count", sum, "misplaced",                           \
+    X(material_mismatch_pixels, "counters", "misplaced_pixels", "count", sum, "misplaced",                   \
       "pixels with another material than traced rays, or none")                                              \
     X(registers, "registers", "most", "count", largest, "registers",                                         \
       "vector registers of the largest shading pipeline")                                                    \

@@ -278,7 +278,7 @@ TEST(RelationResult, ImagesAreMappedBack) {
     map.mirrored = true;
     map.light = 4;
     map.length = 2;
-    map.turn = glm::dmat3({0, 0, -1}, {0, 1, 0}, {1, 0, 0});  // +X becomes -Z
+    map.rotation = glm::dmat3({0, 0, -1}, {0, 1, 0}, {1, 0, 0});  // +X becomes -Z
     map.ids = {1, 0};
     const Frame back = mappedBack(changed, map);
     EXPECT_EQ(back.settings.size, (Size{relatedWidth - 2, relatedHeight - 2}));

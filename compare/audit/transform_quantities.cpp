@@ -138,7 +138,7 @@ Predicted predictFov(const Subject& subject, const Settings&, double) {
 
 }  // namespace
 
-std::vector<Quantity> placeQuantities() {
+std::vector<Quantity> transformQuantities() {
     constexpr auto originalNone = [](const Subject&) { return 0.0; };
     return {
         {.name = "offset",

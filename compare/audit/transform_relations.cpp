@@ -17,32 +17,33 @@ namespace {
 // Horizontal and along no axis, in radii of the scene. float32 would place the scene to a hundredth of its
 // size; double has bits to spare.
 const glm::dvec3 movedBy{86421.3, 0, -50321.7};
-constexpr double turnedBy = 37;  // degrees
+constexpr double rotationDegrees = 37;
 // Even, so that the 2x2 pixels whose differences choose a mip level stay together; not a multiple of a
 // tile's size.
 constexpr int border = 6;
 
-// Transforms scene, lights and camera: world' = place * world, whose 3x3 part is orthogonal. If it
+// Transforms scene, lights and camera: world' = transform * world, whose 3x3 part is orthogonal. If it
 // mirrors, so does the image.
-void placeAll(Case& placed, const glm::dmat4& transform) {
-    moveAll(placed, transform);
-    const glm::dmat3 turn(transform);
-    for (Light& light : placed.scene.lights) {
-        light.direction = turn * light.direction;
-        light.axis = turn * light.axis;
+void transformAll(Case& changed, const glm::dmat4& transform) {
+    moveAll(changed, transform);
+    const glm::dmat3 rotation(transform);
+    for (Light& light : changed.scene.lights) {
+        light.direction = rotation * light.direction;
+        light.axis = rotation * light.axis;
     }
-    glm::dmat4& camera = placed.camera().world_from_camera;
+    glm::dmat4& camera = changed.camera().world_from_camera;
     for (int c = 0; c < 3; ++c) camera[c] = transform * camera[c];
-    if (glm::determinant(turn) < 0) camera[0] = -camera[0];
+    if (glm::determinant(rotation) < 0) camera[0] = -camera[0];
 }
 
-void turnAll(Related& related, const glm::dmat3& turn) {
-    placeAll(related.changed, glm::dmat4(turn));
-    related.map.turn = turn;
+void rotateAll(Related& related, const glm::dmat3& rotation) {
+    transformAll(related.changed, glm::dmat4(rotation));
+    related.map.rotation = rotation;
 }
 
-void turnTogether(Related& related, const Subject&) {
-    turnAll(related, glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(turnedBy), glm::dvec3(0, 1, 0))));
+void rotateTogether(Related& related, const Subject&) {
+    rotateAll(related,
+              glm::dmat3(glm::rotate(glm::dmat4(1), glm::radians(rotationDegrees), glm::dvec3(0, 1, 0))));
 }
 
 // Without textures: the pixel of 2x2 that decides a texture's mip level is not mirrored.
@@ -51,11 +52,11 @@ void mirror(Related& related, const Subject&) {
     for (Case* of : {&related.base, &related.changed})
         for (Material& material : of->scene.materials)
             for (const MaterialSlot& slot : materialSlots) material.*slot.texture = {};
-    turnAll(related, glm::dmat3({-1, 0, 0}, {0, 1, 0}, {0, 0, 1}));
+    rotateAll(related, glm::dmat3({-1, 0, 0}, {0, 1, 0}, {0, 0, 1}));
     related.map.mirrored = true;
 }
 
-std::string lacksTurnable(const Subject& subject) {
+std::string lacksRotatable(const Subject& subject) {
     const bool lit = subject.original.settings.env != Settings().env || subject.original.scene.environment;
     return lit ? "the maps of an environment have their own pixel grid" : "";
 }
@@ -91,7 +92,7 @@ void halveNear(Related& related, const Subject&) {
 
 }  // namespace
 
-std::vector<Relation> placeRelations() {
+std::vector<Relation> transformRelations() {
     return {
         {.name = "moved",
          .changes = "scene, lights and camera are moved by 100,000 times the scene's radius",
@@ -101,29 +102,30 @@ std::vector<Relation> placeRelations() {
          .lacks = {lacksWithShadows},
          .change =
              [](Related& related, const Subject& subject) {
-                 placeAll(related.changed, glm::translate(glm::dmat4(1), subject.bounds.radius() * movedBy));
+                 transformAll(related.changed,
+                              glm::translate(glm::dmat4(1), subject.bounds.radius() * movedBy));
              }},
         {.name = "turned",
          .changes = "scene, lights and camera are rotated by 37 degrees about +Y",
          .equality = Equality::rounding,
          .because = "vectors in world space have other components, which round differently",
-         .lacks = {lacksTurnable, lacksPerObject, lacksWithShadows},
-         .change = turnTogether},
+         .lacks = {lacksRotatable, lacksPerObject, lacksWithShadows},
+         .change = rotateTogether},
         {.name = "quarter_turn",
          .changes = "scene, lights and camera are rotated by 90 degrees about +Y",
          .equality = Equality::rounding,
          .because = "x and z are exchanged, so sums of products have another order",
-         .lacks = {lacksTurnable, lacksPerObject, lacksWithShadows},
+         .lacks = {lacksRotatable, lacksPerObject, lacksWithShadows},
          // A matrix of only 0 and 1.
          .change =
              [](Related& related, const Subject&) {
-                 turnAll(related, glm::dmat3({0, 0, -1}, {0, 1, 0}, {1, 0, 0}));
+                 rotateAll(related, glm::dmat3({0, 0, -1}, {0, 1, 0}, {1, 0, 0}));
              }},
         {.name = "mirrored",
          .changes = "scene, lights and camera are mirrored at x = 0, and so is the picture; without textures",
          .equality = Equality::rounding,
          .because = "signs change, and mirrored columns of the picture round differently",
-         .lacks = {lacksMirrorable, lacksTurnable, lacksPerObject, lacksWithShadows},
+         .lacks = {lacksMirrorable, lacksRotatable, lacksPerObject, lacksWithShadows},
          .change = mirror},
         {.name = "scaled",
          .changes = "all lengths are doubled, and candela are multiplied by 4",
