@@ -17,10 +17,10 @@ Json correctionsOf(std::span<const Deviation> deviations) {
 }  // namespace
 
 std::string describe(const ExternalRenderer& renderer, std::span<const Deviation> deviations) {
-    const std::vector<std::string> granted = describe(renderer.corrections);
+    const std::vector<std::string> applied = describe(renderer.corrections);
     const Json corrections = correctionsOf(deviations);
     std::string out;
-    for (const std::string& line : granted) out += fmt::format("granted {}\n", line);
+    for (const std::string& line : applied) out += fmt::format("granted {}\n", line);
     for (const Deviation& one : deviations)
         out += fmt::format("FAIL {}: {}{}\n", one.name, one.text,
                            one.correction.empty() ? "; no input correction exists for it" : "");
@@ -28,7 +28,7 @@ std::string describe(const ExternalRenderer& renderer, std::span<const Deviation
     if (!corrections.empty())
         out += fmt::format(
             "to correct its inputs, add to {}{}: \"granted\": {}\n", renderer.file.string(),
-            granted.empty() ? "" : ", on top of the present \"granted\" (factors multiply, offsets add)",
+            applied.empty() ? "" : ", on top of the present \"granted\" (factors multiply, offsets add)",
             corrections.dump());
     return out;
 }

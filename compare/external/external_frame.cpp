@@ -177,9 +177,9 @@ Attempt drawExternally(const ExternalRenderer& renderer, const Scene& scene, con
         frame.origin.external = true;
         frame.origin.left_out = std::move(image.origin.left_out);
         std::erase(frame.origin.left_out, "A");  // pixel coverage
-        frame.origin.granted = describe(renderer.corrections);
+        frame.origin.corrections = describe(renderer.corrections);
         frame.made_in_ms = ended.ms;
-        for (const std::string& line : frame.origin.granted)
+        for (const std::string& line : frame.origin.corrections)
             frame.notes.push_back(fmt::format("{}: correction {}", renderer.name, line));
         for (const std::string& line : job.notes)
             if (std::ranges::count(frame.notes, line) == 0) frame.notes.push_back(line);

@@ -123,7 +123,7 @@ Json jsonOf(const Frame& frame) {
               {"driver", frame.origin.driver},
               {"commit", frame.origin.commit},
               {"external", frame.origin.external},
-              {"granted", frame.origin.granted}}},
+              {"granted", frame.origin.corrections}}},
             {"notes", frame.notes}};
 }
 

@@ -34,9 +34,9 @@ void Tally::value(std::size_t row, std::size_t output, float got, double expecte
     }
     ++results;
     const double off = std::abs(double{got} - expected);
-    const double granted = allowed + std::abs(expected) * definition_rounding;
+    const double limit = allowed + std::abs(expected) * definition_rounding;
     if (!std::isfinite(got)) ++nonfinite;
-    if (!(off <= granted)) ++failures;
+    if (!(off <= limit)) ++failures;
     const double max = std::numeric_limits<double>::max(), counted = std::isfinite(off) ? off : max;
     const Worst here{0, double{got}, expected, allowed, row, output, true};
     if (step > 0) {
@@ -47,7 +47,7 @@ void Tally::value(std::size_t row, std::size_t output, float got, double expecte
         errors.push_back(static_cast<float>(std::min(in_units.error, 1e30)));
     }
     Worst fraction = here;
-    fraction.error = counted == 0 ? 0 : granted > 0 ? counted / granted : max;
+    fraction.error = counted == 0 ? 0 : limit > 0 ? counted / limit : max;
     keepWorse(tightest, fraction);
 }
 

@@ -256,7 +256,7 @@ private:
              {std::pair{"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p99.9", s.p999}})
             row(name, number(value) + unit);
         if (channel_.certain_p999) row("p99.9 of the excess", number(*channel_.certain_p999));
-        for (const Granted& each : channel_.granted)
+        for (const ApproximationError& each : channel_.approximation_errors)
             row(fmt::format("granted to {}, mean and p99.9{}", each.name,
                             each.setting.empty() ? "" : "; removed by " + each.setting),
                 fmt::format("{} and {}", percentText(each.mean), percentText(each.p999)));

@@ -29,9 +29,9 @@ std::string fileLine(const Frame& frame) {
     const FrameOrigin& origin = frame.origin;
     std::string line = fmt::format("{}: {}", frame.name, origin.file);
     if (origin.external)
-        line += origin.granted.empty()
-                    ? ", external renderer, no corrections"
-                    : fmt::format(", external renderer, corrections: {}", fmt::join(origin.granted, "; "));
+        line += origin.corrections.empty() ? ", external renderer, no corrections"
+                                           : fmt::format(", external renderer, corrections: {}",
+                                                         fmt::join(origin.corrections, "; "));
     else if (!origin.device.empty())
         line += fmt::format(", on {}, {}, commit {}", origin.device, origin.driver, origin.commit);
     return line;

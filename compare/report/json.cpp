@@ -31,8 +31,8 @@ Json jsonOf(const Criterion& criterion) {
             {criterion.differing ? "differing_share" : "share_beyond", criterion.fraction}};
 }
 
-Json jsonOf(const std::vector<Granted>& granted) {
-    return arrayOf(granted, [](const Granted& each) -> Json {
+Json jsonOf(const std::vector<ApproximationError>& errors) {
+    return arrayOf(errors, [](const ApproximationError& each) -> Json {
         return {{"approximation", each.name},
                 {"mean", each.mean},
                 {"p999", each.p999},
@@ -71,7 +71,7 @@ Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDif
     json["different_pixels"] = s.different;
     json["infinite_pixels"] = s.infinite;
     json["nonfinite_pixels"] = {{"baseline", s.nonfinite_baseline}, {"test", s.nonfinite_test}};
-    if (!channel.granted.empty()) json["granted"] = jsonOf(channel.granted);
+    if (!channel.approximation_errors.empty()) json["granted"] = jsonOf(channel.approximation_errors);
     json["unexplained_pixels"] = orNull(channel.unexplained_pixels);
     if (const auto& f = channel.footprints)
         json["footprints"] = {{"smooth", f->smooth},   {"beyond", f->beyond}, {"used", finiteOrNull(f->used)},

@@ -283,7 +283,7 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
     channel.mode = &mode;
     channel.stats = channelStats(mode.error_kind, mode.kind, pair.baseline.channels.at(mode.channel),
                                  pair.test.channels.at(mode.channel), pair.coverage);
-    if (mode.channel == Channel::lit) channel.granted = grantedIn(mode, pair);
+    if (mode.channel == Channel::lit) channel.approximation_errors = approximationErrors(mode, pair);
     ChannelPair images{mode.error_kind,
                        mode.kind,
                        false,
@@ -292,7 +292,7 @@ ChannelDiff diffChannel(const DebugMode& mode, const FramePair& pair, std::span<
                        &pair.coverage,
                        &channel.stats};
     if (isPathAgainstReference(pair) && mode.channel == Channel::lit)
-        images.granted = grantedMean(channel.granted);
+        images.approximation_error = meanApproximationError(channel.approximation_errors);
     const Measurement measurement(images);
     if (mode.kind == ChannelKind::color) channel.flip = measurement({"flip", 0});
     channel.metrics = measurement.all();

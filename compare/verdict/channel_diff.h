@@ -3,10 +3,10 @@
 #pragma once
 
 #include "compare/metrics/channel.h"
+#include "compare/verdict/approximation_errors.h"
 #include "compare/verdict/bound_use.h"
 #include "compare/verdict/footprint.h"
 #include "compare/verdict/frame_pair.h"
-#include "compare/verdict/granted.h"
 #include "compare/verdict/rules.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/frame/debug_modes.h"
@@ -46,8 +46,8 @@ struct ChannelDiff {
     std::optional<BoundUse> encoding_use;  // surface channel: use of the quantization error bound
     std::optional<BoundUse> device_use;    // one path on two devices: use of their precision bound
     std::optional<double>
-        certain_p999;              // against a sampled reference: the part of p999 beyond its uncertainty
-    std::vector<Granted> granted;  // lit, against the reference: what approximations are granted
+        certain_p999;  // against a sampled reference: the part of p999 beyond its uncertainty
+    std::vector<ApproximationError> approximation_errors;  // lit, against the reference
     Verdict verdict = Verdict::pass;
     std::string reason;   // why it failed; else empty
     std::string warning;  // warning of a rule; else empty

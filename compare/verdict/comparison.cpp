@@ -320,10 +320,10 @@ void readEmptiness(const FramePair& pair, double shown, const CompareOptions& op
         weaken(emptiness, "; --allow-empty accepts that");
     if (const std::string loose = looselyEvaluated(comparison.channels); !loose.empty()) weaken(loose);
     for (const ChannelDiff& channel : comparison.channels) {
-        if (channel.granted.empty()) continue;
-        const std::string text = grantedText(*channel.mode, channel.granted);
-        if (grantedMean(channel.granted) > maxGranted && channel.rule.empty() &&
-            channel.verdict == Verdict::pass)
+        if (channel.approximation_errors.empty()) continue;
+        const std::string text = approximationErrorText(*channel.mode, channel.approximation_errors);
+        if (meanApproximationError(channel.approximation_errors) > maxApproximationError &&
+            channel.rule.empty() && channel.verdict == Verdict::pass)
             weaken(text);
         else
             comparison.notes.push_back(text);

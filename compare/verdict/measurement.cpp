@@ -73,7 +73,7 @@ const std::array rows{
     Row{{"angle_max", false, "largest angle between vectors, degrees"}, angle<&StandardMetrics::angle_max>},
     Row{{"angle_mean", false, "mean angle between vectors, degrees"}, angle<&StandardMetrics::angle_mean>},
     Row{{"granted", false, "against the reference: mean relative error of lit granted to approximations"},
-        [](const Measurement& m) { return m.granted(); }},
+        [](const Measurement& m) { return m.approximationError(); }},
     Row{{"length_max", false, "largest difference of vector lengths"}, angle<&StandardMetrics::length_max>},
 };
 

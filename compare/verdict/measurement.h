@@ -25,9 +25,9 @@ struct ChannelPair {
     bool display = false;  // sRGB values in [0, 1]; else linear
     ImageRows reference, test;
     const Coverage* coverage = nullptr;
-    const ChannelStats* stats = nullptr;  // if known already
-    HdrFlipOptions flip = {};             // `covered` is set by Measurement
-    std::optional<double> granted = {};   // lit of a path against the reference: grantedMean()
+    const ChannelStats* stats = nullptr;             // if known already
+    HdrFlipOptions flip = {};                        // `covered` is set by Measurement
+    std::optional<double> approximation_error = {};  // of lit; meanApproximationError()
 };
 
 class Measurement {
@@ -46,7 +46,7 @@ public:
 
     double fractionOf(std::uint64_t pixels) const;  // fraction of the covered pixels, 0 to 1
 
-    std::optional<double> granted() const { return pair_.granted; }
+    std::optional<double> approximationError() const { return pair_.approximation_error; }
     bool isVector() const;  // whether it has 3 components
     // The pair's statistics. If computed here, mean and rmse of an absolute error are over components, as
     // in other programs.

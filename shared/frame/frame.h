@@ -73,9 +73,9 @@ struct FrameOrigin {
     std::string device, driver, commit;
     std::vector<std::string> left_out = {};     // the file's channels that Diptych does not have
     std::vector<std::string> not_applied = {};  // what the file says of its colours or pixels (FileNotes)
-    // Rendered now by an external renderer. `file` names it; `granted` describes its input corrections.
+    // Rendered now by an external renderer. `file` names it; `corrections` describes those of its input.
     bool external = false;
-    std::vector<std::string> granted = {};
+    std::vector<std::string> corrections = {};
 };
 
 // The device that rendered a Frame, as reports name it.

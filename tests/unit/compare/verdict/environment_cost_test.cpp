@@ -3,8 +3,8 @@
 // environment methods.
 #include "compare/verdict/environment_cost.h"
 
+#include "compare/verdict/approximation_errors.h"
 #include "compare/verdict/channel_diff.h"
-#include "compare/verdict/granted.h"
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 
@@ -91,8 +91,8 @@ TEST(EnvironmentCost, WhatItTakesOfLitIsSaidWithItsSetting) {
     const DebugMode& lit = debugMode(Channel::lit);
     p.reference.channels[lit.channel] = Image(1, 1, 3, 10.0f);
     p.path.channels[lit.channel] = Image(1, 1, 3, 12.0f);
-    const std::vector<Granted> granted = grantedIn(lit, p.pair());
-    EXPECT_EQ(grantedText(lit, granted),
+    const std::vector<ApproximationError> errors = approximationErrors(lit, p.pair());
+    EXPECT_EQ(approximationErrorText(lit, errors),
               "lit is off by 20 % in the mean, granted to split IBL (p99.9 15 %): --ibl sampled; diffuse IBL "
               "(p99.9 5 %): --ibl-diffuse map");
     const auto evaluated = [&](float value, const char* max) {
@@ -104,11 +104,11 @@ TEST(EnvironmentCost, WhatItTakesOfLitIsSaidWithItsSetting) {
     };
     EXPECT_EQ(evaluated(12, "0.25").verdict, Verdict::pass);
     EXPECT_EQ(evaluated(12, "0.15").reason, "granted 0.2 exceeds 0.15; 100 % of the pixels differ");
-    EXPECT_NEAR(grantedMean(evaluated(20, "1").granted), 0.4, 1e-6)
+    EXPECT_NEAR(meanApproximationError(evaluated(20, "1").approximation_errors), 0.4, 1e-6)
         << "what tolerances take of an error of 1";
     EXPECT_EQ(evaluated(20, "1").verdict, Verdict::fail) << "the rest of it";
     p.reference.environment_costs = {};
-    EXPECT_TRUE(grantedIn(lit, p.pair()).empty());
+    EXPECT_TRUE(approximationErrors(lit, p.pair()).empty());
 }
 
 }  // namespace

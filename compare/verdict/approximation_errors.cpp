@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/verdict/granted.h"
+#include "compare/verdict/approximation_errors.h"
 
 #include "compare/metrics/channel.h"
 #include "compare/metrics/pixel.h"
@@ -16,18 +16,19 @@ namespace diptych {
 namespace {
 
 // The name and the setting that removes it, by Approximation.
-Granted namedFor(std::size_t approximation, const Settings& settings) {
+ApproximationError namedFor(std::size_t approximation, const Settings& settings) {
     switch (static_cast<Approximation>(approximation)) {
         case Approximation::shadow_filter:
             return {"shadow filtering", ""};
         case Approximation::ibl_diffuse:
-            return settings.ibl_diffuse == IblDiffuse::map ? Granted{"diffuse IBL", ""}
-                                                           : Granted{"diffuse IBL", "--ibl-diffuse map"};
+            return settings.ibl_diffuse == IblDiffuse::map
+                       ? ApproximationError{"diffuse IBL", ""}
+                       : ApproximationError{"diffuse IBL", "--ibl-diffuse map"};
         case Approximation::ibl_specular:
             return settings.ibl == Ibl::split
-                       ? Granted{"split IBL", "--ibl sampled"}
-                       : Granted{fmt::format("{} samples of IBL", settings.ibl_samples),
-                                 fmt::format("--ibl-samples {}", 2 * settings.ibl_samples)};
+                       ? ApproximationError{"split IBL", "--ibl sampled"}
+                       : ApproximationError{fmt::format("{} samples of IBL", settings.ibl_samples),
+                                            fmt::format("--ibl-samples {}", 2 * settings.ibl_samples)};
         case Approximation::blending:
             return {"blending and glass", ""};
         case Approximation::haze_steps:
@@ -38,7 +39,7 @@ Granted namedFor(std::size_t approximation, const Settings& settings) {
 
 }  // namespace
 
-std::vector<Granted> grantedIn(const DebugMode& mode, const FramePair& pair) {
+std::vector<ApproximationError> approximationErrors(const DebugMode& mode, const FramePair& pair) {
     if (!isPathAgainstReference(pair) || pair.coverage.count == 0) return {};
     const Image &baseline = pair.baseline.channels.at(mode.channel),
                 &test = pair.test.channels.at(mode.channel);
@@ -54,35 +55,35 @@ std::vector<Granted> grantedIn(const DebugMode& mode, const FramePair& pair) {
         const double taken = all > 0 ? std::min(error(test.pixel(i), p), all / unit) / all : 0;
         for (std::size_t a = 0; a < approximations; ++a) errors[a].push_back(allowed[a] * taken);
     }
-    std::vector<Granted> all;
+    std::vector<ApproximationError> all;
     for (std::size_t a = 0; a < approximations; ++a) {
-        Granted granted = namedFor(a, pair.path().settings);
-        granted.mean =
+        ApproximationError found = namedFor(a, pair.path().settings);
+        found.mean =
             std::accumulate(errors[a].begin(), errors[a].end(), 0.0) / static_cast<double>(errors[a].size());
-        if (!(granted.mean > 0)) continue;
-        granted.p999 = nearestRank(std::move(errors[a]), 0.999);
-        all.push_back(std::move(granted));
+        if (!(found.mean > 0)) continue;
+        found.p999 = nearestRank(std::move(errors[a]), 0.999);
+        all.push_back(std::move(found));
     }
-    std::ranges::stable_sort(all, std::greater(), &Granted::mean);
+    std::ranges::stable_sort(all, std::greater(), &ApproximationError::mean);
     return all;
 }
 
-double grantedMean(const std::vector<Granted>& granted) {
-    return std::accumulate(granted.begin(), granted.end(), 0.0,
-                           [](double sum, const Granted& each) { return sum + each.mean; });
+double meanApproximationError(const std::vector<ApproximationError>& errors) {
+    return std::accumulate(errors.begin(), errors.end(), 0.0,
+                           [](double sum, const ApproximationError& each) { return sum + each.mean; });
 }
 
-std::string grantedText(const DebugMode& mode, const std::vector<Granted>& granted) {
+std::string approximationErrorText(const DebugMode& mode, const std::vector<ApproximationError>& errors) {
     // The JSON also has approximations with less than a tenth of the largest grant.
     std::string text;
-    for (const Granted& each : granted) {
-        if (each.mean < 0.1 * granted.front().mean) break;
+    for (const ApproximationError& each : errors) {
+        if (each.mean < 0.1 * errors.front().mean) break;
         text += fmt::format("{}{} (p99.9 {}){}", text.empty() ? "" : "; ", each.name, percentText(each.p999),
                             each.setting.empty() ? "" : ": " + each.setting);
     }
     return text.empty() ? text
                         : fmt::format("{} is off by {} in the mean, granted to {}", mode.name,
-                                      percentText(grantedMean(granted)), text);
+                                      percentText(meanApproximationError(errors)), text);
 }
 
 }  // namespace diptych
