@@ -97,7 +97,7 @@ std::vector<Block> closerPathBlocks(const Report& report, const ReportLayout* la
             {Span("", Span::swatch, "first"), report.frames[closer.paths[0]].name + " closer",
              Span("", Span::swatch, "second"), report.frames[closer.paths[1]].name + " closer",
              fmt::format("{}: brightness is the difference of the errors, full at {}", first.mode->name,
-                         number(closerPathTop(first.apart)))}});
+                         number(closerPathTop(first.error_difference)))}});
     addMaterials(left.blocks, report, closer, first);
     addMetrics(right.blocks, report, closer);
     blocks.emplace_back(columns);

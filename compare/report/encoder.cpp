@@ -49,8 +49,9 @@ public:
             for (std::size_t k = 0; k < report_.closer_paths[i].channels.size(); ++k)
                 if (!layout_.closer_paths[i][k].empty())
                     tasks.push_back([this, i, k] {
-                        const Image& apart = report_.closer_paths[i].channels[k].apart;
-                        write(layout_.closer_paths[i][k], closerPathImage(apart, closerPathTop(apart)));
+                        const Image& error_difference = report_.closer_paths[i].channels[k].error_difference;
+                        write(layout_.closer_paths[i][k],
+                              closerPathImage(error_difference, closerPathTop(error_difference)));
                     });
         std::atomic<std::size_t> done{0};
         tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {

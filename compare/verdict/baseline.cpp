@@ -26,11 +26,11 @@ namespace fs = std::filesystem;
 
 std::string differing(const Settings& a, const Settings& b) {
     const auto left = parseOrderedJson(toJson(a)), right = parseOrderedJson(toJson(b));
-    std::vector<std::string> words;
+    std::vector<std::string> items;
     for (const auto& [key, value] : left.items())
         if (key != "path" && value != right.at(key))
-            words.push_back(fmt::format("{} {} (now {})", key, value.dump(), right.at(key).dump()));
-    return fmt::format("{}", fmt::join(words, ", "));
+            items.push_back(fmt::format("{} {} (now {})", key, value.dump(), right.at(key).dump()));
+    return fmt::format("{}", fmt::join(items, ", "));
 }
 
 std::string textOf(const double (&place)[3]) {

@@ -145,17 +145,17 @@ struct Outside {
 
 Outside outside(Domain domain, const float* p, int components) {
     Outside worst;
-    const auto look = [&](double value, double by) {
+    const auto consider = [&](double value, double by) {
         if (by > worst.by) worst = {by, value};
     };
     if (domain == Domain::unit || domain == Domain::unit_or_zero) {
         const double length = std::hypot(double{p[0]}, double{p[1]}, double{p[2]});
-        if (domain == Domain::unit || length != 0) look(length, std::abs(length - 1));
+        if (domain == Domain::unit || length != 0) consider(length, std::abs(length - 1));
         return worst;
     }
     for (int c = 0; c < components; ++c) {
-        look(p[c], -double{p[c]});
-        if (domain == Domain::ratio) look(p[c], double{p[c]} - 1);
+        consider(p[c], -double{p[c]});
+        if (domain == Domain::ratio) consider(p[c], double{p[c]} - 1);
     }
     return worst;
 }

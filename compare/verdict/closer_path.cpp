@@ -84,14 +84,14 @@ CloserPathChannel channelOf(const DebugMode& mode, const Frame& referenceFrame,
     }
     channel.between =
         pathErrorOf(mode, paths[0]->channels.at(mode.channel), paths[1]->channels.at(mode.channel), covered);
-    channel.apart = Image(reference.width, reference.height, 1);
+    channel.error_difference = Image(reference.width, reference.height, 1);
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
         if (!covered.covered[i]) continue;
         const float first = errors[0].data[i], second = errors[1].data[i];
         channel.closer_pixels[0] += first < second;
         channel.closer_pixels[1] += second < first;
         channel.even_pixels += first == second;
-        if (first != second) channel.apart.data[i] = first - second;
+        if (first != second) channel.error_difference.data[i] = first - second;
     }
     const double first = channel.paths[0].stats.mean, second = channel.paths[1].stats.mean;
     // Two means are distinguished only if they differ by more than the reference's own uncertainty.
@@ -155,9 +155,9 @@ std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& ch
         percent(channel.closer_pixels[far]), percent(channel.even_pixels));
 }
 
-double closerPathTop(const Image& apart) {
+double closerPathTop(const Image& error_difference) {
     std::vector<float> sizes;
-    for (const float v : apart.data)
+    for (const float v : error_difference.data)
         if (v != 0 && std::isfinite(v)) sizes.push_back(std::abs(v));
     if (sizes.empty()) return 1;
     const auto at = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sizes.size() - 1));
@@ -167,11 +167,11 @@ double closerPathTop(const Image& apart) {
 
 // The report's two path colours (page.css, --first and --second) over black, by the square root of the
 // difference.
-Image8 closerPathImage(const Image& apart, double top) {
+Image8 closerPathImage(const Image& error_difference, double top) {
     constexpr std::array<std::array<double, 3>, 2> color{{{111, 155, 232}, {224, 165, 82}}};
-    Image8 image{apart.width, apart.height, 3, {}};
-    image.data.reserve(3 * apart.pixels());
-    for (const float v : apart.data) {
+    Image8 image{error_difference.width, error_difference.height, 3, {}};
+    image.data.reserve(3 * error_difference.pixels());
+    for (const float v : error_difference.data) {
         const double fraction = std::isnan(v) ? 0 : std::sqrt(std::min(std::abs(double{v}) / top, 1.0));
         for (const double c : color[v < 0 ? 0 : 1])
             image.data.push_back(static_cast<std::uint8_t>(std::lround(c * fraction)));

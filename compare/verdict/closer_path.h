@@ -45,7 +45,7 @@ struct CloserPathChannel {
     // Materials by decreasing contribution to the difference of the two errors, at most eight.
     std::vector<MaterialError> materials;
     // First path's error minus the second's, by pixel; below 0 the first is closer.
-    Image apart;
+    Image error_difference;
 };
 
 struct CloserPath {
@@ -66,7 +66,7 @@ std::string closerPathLine(const CloserPath& closer, const CloserPathChannel& ch
 
 // Blue where the first path is closer, orange where the second is. Brightness is the difference of their
 // errors, full at `top`.
-Image8 closerPathImage(const Image& apart, double top);
-double closerPathTop(const Image& apart);  // 99th percentile of the non-zero values
+Image8 closerPathImage(const Image& error_difference, double top);
+double closerPathTop(const Image& error_difference);  // 99th percentile of the non-zero values
 
 }  // namespace diptych

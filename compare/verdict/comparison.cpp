@@ -184,15 +184,15 @@ std::string waysOfEvaluating(const std::vector<ChannelDiff>& channels) {
 // Channels for which a reference in mode scene gives hardly any pixel a bound of its own. Empty if there
 // are none.
 std::string looselyEvaluated(const std::vector<ChannelDiff>& channels) {
-    std::vector<std::string> words;
+    std::vector<std::string> items;
     for (const ChannelDiff& channel : channels)
         if (const auto& f = channel.footprints; f && f->closeFraction() < minCloseFraction)
-            words.push_back(fmt::format(
+            items.push_back(fmt::format(
                 "{} ({} of {} pixels{})", channel.mode->name, f->smooth, f->pixels(),
                 f->detailed > 0 ? fmt::format(", the others by a mean FLIP of {}", detailFlip) : ""));
-    return words.empty()
+    return items.empty()
                ? std::string()
-               : fmt::format("almost no pixel has a bound of its own in {}", fmt::join(words, ", "));
+               : fmt::format("almost no pixel has a bound of its own in {}", fmt::join(items, ", "));
 }
 
 // Whether both images were rendered on devices without rounding differences; a file only if by this device.

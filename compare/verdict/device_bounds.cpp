@@ -47,7 +47,7 @@ double filterRounding(const AcrossDevices& across, bool srgb) {
 }
 
 // Visibilities that differ by more than their rounding.
-bool areApart(const Image& a, std::size_t i, const Image& b, std::size_t j) {
+bool visibilitiesDiffer(const Image& a, std::size_t i, const Image& b, std::size_t j) {
     const float p = *a.pixel(i), q = *b.pixel(j);
     return metrics::distance(p, q) > 2 * shadingRounding || (p == 0) != (q == 0);
 }
@@ -102,7 +102,7 @@ double PixelBound::change(const Image& image, std::size_t i, unsigned seen) cons
     double max = 0;
     aroundPixel(image, i, [&](std::size_t j, unsigned bit) {
         if ((seen & bit) == 0) return;
-        const double to = apart(mode_, image.pixel(i), image.pixel(j));
+        const double to = channelDifference(mode_, image.pixel(i), image.pixel(j));
         if (std::isfinite(to)) max = std::max(max, to);
     });
     return max;
@@ -118,7 +118,7 @@ Shadowed::Shadowed(const FramePair& pair) {
 
 bool Shadowed::differs(std::size_t i) const {
     return std::ranges::any_of(images_, [i](const auto& of) {
-        return areApart(*of[0], i, *of[1], i) || areApart(*of[2], i, *of[1], i);
+        return visibilitiesDiffer(*of[0], i, *of[1], i) || visibilitiesDiffer(*of[2], i, *of[1], i);
     });
 }
 
@@ -134,8 +134,9 @@ bool Shadowed::isBesideEdge(std::size_t i) const {
     bool found = false;
     for (const auto& of : images_)
         for (const Image* image : of)
-            aroundPixel(*image, i,
-                        [&](std::size_t j, unsigned) { found = found || areApart(*image, i, *image, j); });
+            aroundPixel(*image, i, [&](std::size_t j, unsigned) {
+                found = found || visibilitiesDiffer(*image, i, *image, j);
+            });
     return found;
 }
 
@@ -143,14 +144,14 @@ DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
     switch (sourceOf(mode.channel).stage) {
         case ChannelStage::place:
         case ChannelStage::haze:
-            return Kind::place;
+            return Kind::position;
         case ChannelStage::facet:
             return Kind::facet;
         case ChannelStage::light:
         case ChannelStage::unshadowed:
             return layerOf(mode.channel) != 0 ? Kind::part : Kind::light;
         case ChannelStage::visibility:
-            return Kind::seen;
+            return Kind::visibility;
         case ChannelStage::list:
             return Kind::list;
         case ChannelStage::id:
@@ -170,7 +171,7 @@ DeviceBounds::DeviceBounds(const DebugMode& mode, const FramePair& pair)
       baseline_(pair.baseline.channels.at(mode.channel)),
       test_(pair.test.channels.at(mode.channel)),
       error_(mode.error_kind, mode.kind, baseline_, pair.coverage),
-      place_(mode, pair, baseline_, test_),
+      position_(mode, pair, baseline_, test_),
       facet_(pair),
       rounded_as_(roundedFloors(pair.needs) * error_.floor()),
       per_texel_(kind_ == Kind::pane && pair.needs.textures == 0 ? 0 : perTexel(mode, pair.needs)),
@@ -206,17 +207,17 @@ double DeviceBounds::operator()(std::size_t i) const {
             return isBeside(i) ? 1 : 0;
         case Kind::facet:
             return facet_(i);
-        case Kind::place:
-            return (place_(i) + rounding) / unit;
+        case Kind::position:
+            return (position_(i) + rounding) / unit;
         case Kind::surface:
-            return (place_(i) + rounding + textures(i)) / unit + bits_;
+            return (position_(i) + rounding + textures(i)) / unit + bits_;
         case Kind::pane:
             return (std::min(toNeighbours(baseline_, i), toNeighbours(test_, i)) + rounding +
                     filterRounding(across_, false) * per_texel_) /
                    unit;
         case Kind::light:
             return 2 * shadingRounding * std::max(1.0, rounded_as_ / size) + shadowed_.relative(i);
-        case Kind::seen:
+        case Kind::visibility:
             return 2 * shadingRounding;
         case Kind::part:
         case Kind::list:
@@ -228,14 +229,14 @@ double DeviceBounds::operator()(std::size_t i) const {
 double DeviceBounds::error(std::size_t i) const {
     if (kind_ != Kind::light) return error_(test_.pixel(i), baseline_.pixel(i));
     const Image &lit = unblended_[1] ? *unblended_[1] : test_, &expected = expected_ ? *expected_ : baseline_;
-    const double apart =
-        std::max(metrics::distance(lit.pixel(i), expected.pixel(i), mode_.width), blendedApart(i));
-    return apart == 0
-               ? 0
-               : apart / std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
+    const double difference =
+        std::max(metrics::distance(lit.pixel(i), expected.pixel(i), mode_.width), blendedDifference(i));
+    return difference == 0 ? 0
+                           : difference / std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width),
+                                                   error_.floor());
 }
 
-double DeviceBounds::blendedApart(std::size_t i) const {
+double DeviceBounds::blendedDifference(std::size_t i) const {
     if (!unblended_[0] || !unblended_[1]) return 0;
     const double beside =
         std::max({metrics::distance(unblended_[0]->pixel(i), unblended_[1]->pixel(i), mode_.width),
@@ -264,7 +265,7 @@ std::string DeviceBounds::because() const {
             return "an index; where it changes, a neighbour's value is allowed";
         case Kind::facet:
             return "a triangle's normal, from positions rounded to 2^-24 of their distance, then packed";
-        case Kind::place:
+        case Kind::position:
             return placed + fmt::format("; plus {:.2g} of the value for rounding", relativeRounding());
         case Kind::surface: {
             std::string text = placed;
@@ -289,7 +290,7 @@ std::string DeviceBounds::because() const {
                 rounded_as_ > error_.floor()
                     ? " (relative to at least a tenth of the mean luminance: area-light integrals cancel)"
                     : "");
-        case Kind::seen:
+        case Kind::visibility:
             return "float32 weights, 1e-4 each; at a shadow boundary, texels of the map may show another "
                    "triangle";
         case Kind::part:

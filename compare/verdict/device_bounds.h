@@ -55,11 +55,11 @@ public:
     double error(std::size_t i) const;
     // Increase of lit's difference by blending, minus its change to the next pixels: no channel contains
     // edges and textures of blended surfaces.
-    double blendedApart(std::size_t i) const;
+    double blendedDifference(std::size_t i) const;
     std::string because() const;
 
 private:
-    enum class Kind { id, step, place, facet, surface, pane, light, part, seen, list };
+    enum class Kind { id, step, position, facet, surface, pane, light, part, visibility, list };
     static Kind kindOf(const DebugMode& mode);
 
     bool isBeside(std::size_t i) const;
@@ -78,7 +78,7 @@ private:
     Kind kind_;
     const Image &baseline_, &test_;
     PixelError error_;
-    PixelBound place_;
+    PixelBound position_;
     FacetBound facet_;
     double rounded_as_;  // rounding of darker pixels equals that at this value, in the channel's unit
     double per_texel_;   // change per unit of a linear texel, in the channel's unit

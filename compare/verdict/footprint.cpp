@@ -45,7 +45,7 @@ bool isSurface(const DebugMode& mode) {
 double rangeAt(const DebugMode& mode, const Image& image, std::size_t i, int radius = 1) {
     double range = 0;
     within(image, i, radius, [&](std::size_t j, int, int) {
-        range = std::max(range, apart(mode, image.pixel(j), image.pixel(i)));
+        range = std::max(range, channelDifference(mode, image.pixel(j), image.pixel(i)));
     });
     return range;
 }
@@ -144,7 +144,7 @@ private:
             // Colours may differ by the device's decoding, for which colours() gives light a tolerance.
             const double decoded =
                 mode.kind == ChannelKind::color ? texels(mode, a->pixel(i)) + darkened(mode, *a, i) : 0;
-            if (!(apart(mode, a->pixel(i), b->pixel(i)) <= same + decoded)) return false;
+            if (!(channelDifference(mode, a->pixel(i), b->pixel(i)) <= same + decoded)) return false;
         }
         return true;
     }
@@ -252,7 +252,7 @@ private:
     // Quantization error bound, or for light the encoding's effect, in the channel's error kind.
     double encoding(std::size_t i, double unit) const {
         if (!isLit(mode_.channel)) return bounds_.at(mode_.channel);
-        const Frame* const shown = encodingShownBy(mode_, pair_);
+        const Frame* const shown = encodingFrame(mode_, pair_);
         return shown ? metrics::distance(shown->channels.at(mode_.channel).pixel(i),
                                          shown->through_gbuffer.at(mode_.channel).pixel(i), mode_.width) /
                            unit

@@ -31,7 +31,7 @@ void within(const Image& image, std::size_t pixel, int radius, const Visit& visi
 
 // Difference of two values in the unit of ranges: degrees for directions, else the largest component
 // difference.
-inline double apart(const DebugMode& mode, const float* a, const float* b) {
+inline double channelDifference(const DebugMode& mode, const float* a, const float* b) {
     return mode.error_kind == ErrorKind::angular ? metrics::angle(a, b)
            : mode.error_kind == ErrorKind::axial ? metrics::lineAngle(a, b)
                                                  : metrics::distance(a, b, mode.width);
@@ -63,7 +63,7 @@ public:
         return across * across <= 0.25 * length;
     }
     // Angle between their triangles' normals, degrees.
-    double turned(std::size_t i, std::size_t j) const {
+    double normalAngle(std::size_t i, std::size_t j) const {
         return normals_ ? metrics::angle(normals_->pixel(i), normals_->pixel(j)) : 0;
     }
 

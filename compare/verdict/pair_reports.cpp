@@ -51,9 +51,9 @@ RenderOptions evaluatedOptions(RenderOptions render, std::span<const Settings> s
 
 namespace {
 
-// An earlier Frame of forward+ has no images through the G-buffer. The new forward+ Frame's images replace
-// them, but only in channels where forward+ still renders the same image. In other channels no difference
-// is explained.
+// A stored Frame of forward+ lacks the images that show the G-buffer's encoding (`through_gbuffer`), which
+// explain differences of deferred. It gets those of the forward+ Frame rendered now, in the channels where
+// both show the same image. Differences in its other channels stay unexplained.
 void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
     if (!shadesFragments(baseline.settings.path)) return;
     for (const Frame& frame : frames)

@@ -56,7 +56,7 @@ double usedOf(const Criterion& criterion);
 // ", at 12.3 % of the pixels"; for a metric of the whole channel "; 12.3 % of the pixels differ".
 std::string fractionText(const Criterion& criterion);
 
-// "12.3 %"; never "0 %" for a non-zero share, nor "100 %" for less than all.
+// "12.3 %"; never "0 %" for a non-zero fraction, nor "100 %" for less than all.
 std::string percentText(double fraction);
 
 // A bound on one quantity, or several conditions of which all or any must pass.
@@ -71,8 +71,9 @@ struct Condition {
 // undefined never passes.
 std::optional<std::string> violation(const Condition& condition, const Measured& measured);
 
-// The deciding bound: the one with the highest use if all must pass, with the lowest use among
-// alternatives. Empty if nothing is bounded or the metric is undefined. Does not count its pixels.
+// The bound that decides whether the condition passes, without `Criterion::pixels`. Of bounds that must all
+// pass, it is the one of which most is used (usedOf()); of alternatives, the one of which least is used.
+// Empty if the condition bounds nothing, or a metric that is undefined for the channel.
 std::optional<Criterion> decidingBound(const Condition& condition, const Measured& measured);
 
 // Whether any part of the condition bounds the metric.

@@ -114,7 +114,7 @@ SurfaceGrid::SurfaceGrid(const FramePair& pair)
             alike |= bit;
             if (!both([&](const SurfaceAround& of) { return of.same(i, j); })) return;
             same |= bit;
-            if (both([&](const SurfaceAround& of) { return of.turned(i, j) <= facet; })) triangle |= bit;
+            if (both([&](const SurfaceAround& of) { return of.normalAngle(i, j) <= facet; })) triangle |= bit;
             if (depth) shown = std::max(shown, metrics::distance(*depth->pixel(i), *depth->pixel(j)));
         });
         surface[i] = static_cast<std::uint8_t>(same);

@@ -87,8 +87,8 @@ public:
 
     struct Result {
         bool edge = false;  // beside another surface, another triangle's plane or a seam, in either image
-        bool material = false, place = false, seam = false;  // which of them differs
-        bool isOther() const { return material || place || seam; }
+        bool material = false, position = false, seam = false;  // which of them differs
+        bool isOther() const { return material || position || seam; }
     };
     Result operator()(std::size_t i) const {
         const double facet = facetOf_(i);
@@ -96,13 +96,13 @@ public:
         result.edge = isBesideEdge(sides_[0], *ids_[0], normals_[0], i, facet) ||
                       isBesideEdge(sides_[1], *ids_[1], normals_[1], i, facet);
         result.material = *ids_[0]->pixel(i) != *ids_[1]->pixel(i);
-        result.place = (normals_[0] && normals_[1] &&
-                        metrics::angle(normals_[0]->pixel(i), normals_[1]->pixel(i)) > facet) ||
-                       (depth_ && !(depth_->error(i) <= (*depth_)(i)));
+        result.position = (normals_[0] && normals_[1] &&
+                           metrics::angle(normals_[0]->pixel(i), normals_[1]->pixel(i)) > facet) ||
+                          (depth_ && !(depth_->error(i) <= (*depth_)(i)));
         if (!coordinates_) return result;
         const double bound = (*coordinates_)(i) +
                              relativeRounding() * std::max(1.0, metrics::largestFinite(uvs_[0]->pixel(i), 2));
-        result.seam = !(apart(texcoords_, uvs_[0]->pixel(i), uvs_[1]->pixel(i)) <= bound);
+        result.seam = !(channelDifference(texcoords_, uvs_[0]->pixel(i), uvs_[1]->pixel(i)) <= bound);
         // A sub-pixel step causes at most half the bound (kink), so a seam has caused the other half.
         for (const std::size_t side : {0, 1})
             result.edge = result.edge ||
@@ -115,13 +115,13 @@ public:
         const auto& surface_at = pair_.across->surface_at;
         if (!positions_[0] || !depths_[0] || !surface_at) return false;
         if (!result.isOther())
-            return light_ && light_->blendedApart(i) > 0 &&
-                   surface_at(-1, positions_[0]->pixel(i), tieReach(i), false);
-        if (result.place || !positions_[1]) return false;
-        const double near = tieReach(i);
-        const auto isThere = [&](const Image& ids, const Image& places) {
+            return light_ && light_->blendedDifference(i) > 0 &&
+                   surface_at(-1, positions_[0]->pixel(i), tieTolerance(i), false);
+        if (result.position || !positions_[1]) return false;
+        const double near = tieTolerance(i);
+        const auto isThere = [&](const Image& ids, const Image& positions) {
             return *ids.pixel(i) >= 0 &&
-                   surface_at(static_cast<int>(*ids.pixel(i)), places.pixel(i), near, !result.material);
+                   surface_at(static_cast<int>(*ids.pixel(i)), positions.pixel(i), near, !result.material);
         };
         return isThere(*ids_[0], *positions_[0]) && isThere(*ids_[1], *positions_[1]);
     }
@@ -135,7 +135,7 @@ public:
 
 private:
     // How far from a position another surface of equal depth may lie, m.
-    double tieReach(std::size_t i) const {
+    double tieTolerance(std::size_t i) const {
         return *depths_[0]->pixel(i) * (step_ / pixelsPerRadian(pair_.baseline, i) + relativeRounding());
     }
 

@@ -30,7 +30,7 @@ namespace {
 constexpr double levelBelow = 0.5, levelAbove = 1;
 // A linear filter mixes texels whose centres are less than one texel away. So this many on each side may
 // be visible, even from half a texel beside, more than the steps by which two devices place a vertex.
-constexpr int texelsSeen = 1;
+constexpr int texelMargin = 1;
 
 using Factors = std::array<double, 4>;  // of a texel's components
 
@@ -202,8 +202,8 @@ public:
             const int width = chain_.width(k), height = chain_.height(k);
             const auto x = static_cast<long long>(std::floor(uv.x * width)),
                        y = static_cast<long long>(std::floor(uv.y * height));
-            for (long long v = y - texelsSeen; v <= y + texelsSeen; ++v)
-                for (long long u = x - texelsSeen; u <= x + texelsSeen; ++u) add(range, k, u, v);
+            for (long long v = y - texelMargin; v <= y + texelMargin; ++v)
+                for (long long u = x - texelMargin; u <= x + texelMargin; ++u) add(range, k, u, v);
         }
         return range;
     }
@@ -267,11 +267,11 @@ std::optional<PixelTexels> texelsOfPixel(const Image& uv, const SurfaceAround& s
             if (!surface.same(here, there)) continue;
             const double du = double{uv.pixel(there)[0]} - uv.pixel(here)[0],
                          dv = double{uv.pixel(there)[1]} - uv.pixel(here)[1];
-            const double apart = std::hypot((slot.u.x * du + slot.u.y * dv) * image.width,
-                                            (slot.v.x * du + slot.v.y * dv) * image.height);
-            const double other = surface.turned(here, there) > 6 ? 2 : 1;
-            min = std::min(min, apart / other);
-            max = std::max(max, apart * other);
+            const double distance = std::hypot((slot.u.x * du + slot.u.y * dv) * image.width,
+                                               (slot.v.x * du + slot.v.y * dv) * image.height);
+            const double other = surface.normalAngle(here, there) > 6 ? 2 : 1;
+            min = std::min(min, distance / other);
+            max = std::max(max, distance * other);
         }
         if (std::isinf(min)) return {};
         texels = {std::max(texels.min, min), std::max(texels.max, max)};

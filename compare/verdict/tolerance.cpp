@@ -93,8 +93,8 @@ Tolerance specularTolerance(const FramePair& pair, GBufferEncoding encoding) {
     };
     const double metallic = bound(Channel::metallic), f0 = bound(Channel::dielectric_f0);
     const double ends = std::max(bound(Channel::albedo), f0);
-    const double apart = f0 > 0 ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
-    return {ends + metallic * apart,
+    const double range = f0 > 0 ? 1 : 1 - double{gpu::DEFAULT_DIELECTRIC_F0};
+    return {ends + metallic * range,
             fmt::format("mixed from albedo{} (sqrt in {} bits, {:.3g}) by metallic (half a step, {:.3g})",
                         f0 > 0 ? " and F0" : "",
                         f0 > bound(Channel::albedo) ? gpu::SPECULAR_BITS : gpu::ALBEDO_BITS, ends, metallic)};
@@ -211,7 +211,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
             result.because +=
                 " or, where light grazes, nears its range or meets a sharp lobe, what float32 "
                 "positions err by";
-        if (const Frame* const shown = encodingShownBy(mode, pair))
+        if (const Frame* const shown = encodingFrame(mode, pair))
             result.because += fmt::format("; on the surfaces that the {} G-buffer decodes, as {} shades them",
                                           nameOf(path.settings.gbuffer), shown->name);
         if (ShadowEdges(pair).any())
@@ -260,7 +260,7 @@ Tolerance referenceTolerance(const DebugMode& mode, const FramePair& pair) {
 
 }  // namespace
 
-const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair) {
+const Frame* encodingFrame(const DebugMode& mode, const FramePair& pair) {
     if (!isLit(mode.channel) || !isPathAgainstReference(pair)) return nullptr;
     const Settings& path = pair.path().settings;
     if (!isPacked(path)) return nullptr;
@@ -336,7 +336,7 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
     if (!(isShaded(mode.channel) || BlendedPixels::isOfGlass(mode)) || !isPathAgainstReference(pair))
         return {};
     const Frame& reference = pair.reference();
-    if (reference.uncertainty.empty() && reference.rounding.empty() && !encodingShownBy(mode, pair) &&
+    if (reference.uncertainty.empty() && reference.rounding.empty() && !encodingFrame(mode, pair) &&
         !Allowances(pair).any())
         return {};
     return openErrors(mode, pair, pair.baseline.channels.at(mode.channel),
@@ -346,7 +346,7 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
 std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, const Image& baseline,
                                const Image& test) {
     const Frame& reference = pair.reference();
-    const Frame* const encoded = encodingShownBy(mode, pair);
+    const Frame* const encoded = encodingFrame(mode, pair);
     const bool first = isReferenceFrame(pair.baseline);
     const Allowances allowances(pair);
     const PixelError error(mode.error_kind, mode.kind, baseline, pair.coverage);

@@ -63,14 +63,14 @@ double gpuSlack(const DebugMode& mode, const Image& baseline);
 // For lit channels of a packed deferred Frame and a reference: the Frame whose `channels` and
 // `through_gbuffer` show the effect of the encoding, either the reference itself or forward+ of the same
 // view. Else nullptr.
-const Frame* encodingShownBy(const DebugMode& mode, const FramePair& pair);
+const Frame* encodingFrame(const DebugMode& mode, const FramePair& pair);
 
 // Quantization error bound of a surface channel for a packed path against the reference, in the channel's
 // metric; 0 for forward+, a full G-buffer and lit channels.
 double encodingBound(const DebugMode& mode, const FramePair& pair);
 
 // Comparison with the reference: errors of the covered pixels in row-major order, without the encoding's
-// effect (encodingShownBy()) and minus the reference's uncertainty. Empty if there is neither, and for
+// effect (encodingFrame()) and minus the reference's uncertainty. Empty if there is neither, and for
 // channels other than lit ones.
 std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const FramePair& pair);
 

@@ -61,9 +61,9 @@ TEST(CloserPath, SaysWhichWhereAndByHowMuch) {
     EXPECT_EQ(channel.closer_pixels[0], 1u);
     EXPECT_EQ(channel.closer_pixels[1], 2u);
     EXPECT_EQ(channel.even_pixels, 1u);
-    EXPECT_GT(channel.apart.at(0, 0), 0);
-    EXPECT_EQ(channel.apart.at(1, 0), 0);
-    EXPECT_LT(channel.apart.at(3, 0), 0);
+    EXPECT_GT(channel.error_difference.at(0, 0), 0);
+    EXPECT_EQ(channel.error_difference.at(1, 0), 0);
+    EXPECT_LT(channel.error_difference.at(3, 0), 0);
     ASSERT_EQ(channel.materials.size(), 2u);
     EXPECT_EQ(channel.materials[0].name, "stone") << "the two are 0.25 apart there, 0.1 in gold";
     EXPECT_EQ(channel.materials[0].pixels, 3u);
@@ -100,9 +100,9 @@ TEST(CloserPath, WhatIsExactIsInfinitelyCloser) {
 }
 
 TEST(CloserPath, TheImageHasEachPathsColour) {
-    Image apart(3, 1, 1);
-    apart.data = {-1, 0, 0.25f};
-    const Image8 image = closerPathImage(apart, 1);
+    Image error_difference(3, 1, 1);
+    error_difference.data = {-1, 0, 0.25f};
+    const Image8 image = closerPathImage(error_difference, 1);
     EXPECT_EQ(std::vector<std::uint8_t>(image.data.begin(), image.data.begin() + 3),
               (std::vector<std::uint8_t>{111, 155, 232}));
     EXPECT_EQ(image.data[4], 0);

@@ -284,7 +284,7 @@ TEST(EncodingUse, AgainstTheReferenceDecodedSurfacesAreShaded) {
             const FramePair pair{
                 turned ? deferred : reference, turned ? reference : deferred, p.needs, covered, true,
                 traced ? &forward : nullptr};
-            EXPECT_EQ(encodingShownBy(lit, pair), &shows);
+            EXPECT_EQ(encodingFrame(lit, pair), &shows);
             ASSERT_TRUE(certainErrors(lit, pair));
             EXPECT_NEAR(certainErrors(lit, pair)->at(0), 0, 1e-6);
             deferred.channels.at(lit.channel).at(1, 2) = 0.61f;
@@ -292,7 +292,7 @@ TEST(EncodingUse, AgainstTheReferenceDecodedSurfacesAreShaded) {
             deferred.channels.at(lit.channel).at(1, 2) = 0.6f;
         }
         const FramePair none{reference, forward, p.needs, covered, true, &forward};
-        EXPECT_EQ(encodingShownBy(lit, none), nullptr) << "forward+ encodes nothing";
+        EXPECT_EQ(encodingFrame(lit, none), nullptr) << "forward+ encodes nothing";
     }
 }
 
