@@ -45,10 +45,10 @@ std::optional<Case> flattened(const Case& whole) {
         // Anisotropy's own tangents: it has no texture any more.
         const Material& textured =
             materialsOf(whole.scene, pose)[static_cast<std::size_t>(primitive.material)];
-        const bool rotated = (turnedMaps(textured, true).layers & gpu::LAYER_ANISOTROPY) != 0;
+        const bool rotated = (rotatedMaps(textured, true).layers & gpu::LAYER_ANISOTROPY) != 0;
         for (std::size_t v = 0; v < primitive.tangents.size(); ++v) {
             glm::vec4& tangent = primitive.tangents[v];
-            tangent = rotated ? turnedTangent(primitive.normals[v], tangent)
+            tangent = rotated ? rotatedTangent(primitive.normals[v], tangent)
                               : glm::vec4(glm::vec3(tangent), signOf(tangent.w));
         }
         scene.nodes.push_back({.name = "part",

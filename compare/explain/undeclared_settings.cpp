@@ -23,7 +23,7 @@ namespace {
 // degrees, as by exchanged axes; environment light, ambient light or haze scaled or removed. A Setting is
 // accepted if it brings lit nearer by at least half of its change. A multiple that no term confirms must
 // also leave less than half of the residual. At most maxBelieved are accepted.
-constexpr std::array triedTurns{90.0f, 180.0f, 270.0f};
+constexpr std::array triedRotations{90.0f, 180.0f, 270.0f};
 constexpr double believedRest = 0.5;
 constexpr int maxBelieved = 3;
 constexpr double minBrighter = 0.01;
@@ -87,12 +87,13 @@ private:
             change(all.back().settings);
         };
         const bool lit_around = said_.env != Settings().env && said_.ibl_intensity > 0;
-        for (const float turn : triedTurns)
+        for (const float degrees : triedRotations)
             if (lit_around)
-                tryIt("env-rotation",
-                      fmt::format(
-                          "an environment rotated by {} degrees more than the test's Settings declare", turn),
-                      false, [&](Settings& s) { s.env_rotation += turn; });
+                tryIt(
+                    "env-rotation",
+                    fmt::format("an environment rotated by {} degrees more than the test's Settings declare",
+                                degrees),
+                    false, [&](Settings& s) { s.env_rotation += degrees; });
         const auto multiple = [](const char* what, double factor) {
             return fmt::format("{} of {:.4g} times the value in the test's Settings", what, factor);
         };

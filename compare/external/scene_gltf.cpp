@@ -231,11 +231,11 @@ private:
         Json reference{{"index", textureIndex(texture, image)}, {"texCoord", slot.texcoord}};
         if (isTransformed(slot)) {
             // slot.u = (c sx, s sy), slot.v = (-s sx, c sy).
-            const double across = std::hypot(slot.u.x, slot.v.x), turn = std::atan2(-slot.v.x, slot.u.x);
-            const double along = std::cos(turn) * slot.v.y + std::sin(turn) * slot.u.y;
+            const double across = std::hypot(slot.u.x, slot.v.x), rotation = std::atan2(-slot.v.x, slot.u.x);
+            const double along = std::cos(rotation) * slot.v.y + std::sin(rotation) * slot.u.y;
             extensions_.insert("KHR_texture_transform");
             reference["extensions"]["KHR_texture_transform"] = {
-                {"offset", {slot.u.z, slot.v.z}}, {"rotation", turn}, {"scale", {across, along}}};
+                {"offset", {slot.u.z, slot.v.z}}, {"rotation", rotation}, {"scale", {across, along}}};
         }
         return reference;
     }

@@ -184,9 +184,9 @@ EnergyRow energyRow(std::size_t row) {
     double radical = 0;
     for (std::size_t bit = 0; bit < 6; ++bit) radical += (k >> bit & 1) ? std::exp2(-1.0 - double(bit)) : 0;
     const double u = (static_cast<double>(k) + 0.5) / energy_line,
-                 turn = 2 * std::numbers::pi * (radical + 1.0 / 128);
-    const double p1 = std::sqrt(u) * std::cos(turn), s = 0.5 * (1 + up.z);
-    const double p2 = (1 - s) * std::sqrt(1 - p1 * p1) + s * std::sqrt(u) * std::sin(turn);
+                 azimuth = 2 * std::numbers::pi * (radical + 1.0 / 128);
+    const double p1 = std::sqrt(u) * std::cos(azimuth), s = 0.5 * (1 + up.z);
+    const double p2 = (1 - s) * std::sqrt(1 - p1 * p1) + s * std::sqrt(u) * std::sin(azimuth);
     const Vec<double> m = t1 * p1 + t2 * p2 + up * std::sqrt(std::max(1 - p1 * p1 - p2 * p2, 0.0));
     const Vec<double> h = unit({alpha * m.x, alpha * m.y, std::max(m.z, 1e-9)});
     e.l = h * (2 * dot(e.v, h)) - e.v;

@@ -34,9 +34,9 @@ constexpr std::uint64_t magic = 0x31707963666e6572u;
     throw std::runtime_error(writingFailed(file, errno));
 }
 
-std::uint64_t sumOf(std::uint64_t number, std::span<const float> values) {
+std::uint64_t sumOf(std::uint64_t index, std::span<const float> values) {
     Key key;
-    key.add(number);
+    key.add(index);
     key.add(std::as_bytes(values));
     return key.value();
 }
@@ -104,9 +104,9 @@ long readRecords(std::FILE* stream, std::size_t floats, std::vector<Checkpoint::
     long whole = std::ftell(stream);
     Checkpoint::Record record{0, std::vector<float>(floats)};
     std::uint64_t sum = 0;
-    while (std::fread(&record.number, sizeof record.number, 1, stream) == 1 &&
+    while (std::fread(&record.index, sizeof record.index, 1, stream) == 1 &&
            std::fread(record.values.data(), sizeof(float), floats, stream) == floats &&
-           std::fread(&sum, sizeof sum, 1, stream) == 1 && sum == sumOf(record.number, record.values)) {
+           std::fread(&sum, sizeof sum, 1, stream) == 1 && sum == sumOf(record.index, record.values)) {
         records.push_back(record);
         whole = std::ftell(stream);
     }
@@ -165,7 +165,7 @@ bool Checkpoint::open(const Head& head) {
 // and its file is left unchanged.
 void Checkpoint::merge(const fs::path& stem, const Head& head) {
     std::set<std::uint64_t> have;
-    for (const Record& record : earlier_) have.insert(record.number);
+    for (const Record& record : earlier_) have.insert(record.index);
     for (const fs::path& other : filesOf(folder_, stem)) {
         if (other == file_ || !other.native().starts_with(fileOf(stem, head.key).native())) continue;
         std::FILE* stream = opened(folder_, other, false);
@@ -176,8 +176,8 @@ void Checkpoint::merge(const fs::path& stem, const Head& head) {
         if (holds == Holds::this_image) readRecords(stream, floats_, records);
         try {
             for (Record& record : records) {
-                if (!have.insert(record.number).second) continue;
-                keep(record.number, record.values);
+                if (!have.insert(record.index).second) continue;
+                keep(record.index, record.values);
                 earlier_.push_back(std::move(record));
             }
         } catch (...) {
@@ -190,13 +190,13 @@ void Checkpoint::merge(const fs::path& stem, const Head& head) {
     }
 }
 
-void Checkpoint::keep(std::uint64_t number, std::span<const float> values) {
+void Checkpoint::keep(std::uint64_t index, std::span<const float> values) {
     std::vector<float> filled(values.begin(), values.end());
     filled.resize(floats_);
-    const std::uint64_t sum = sumOf(number, filled);
+    const std::uint64_t sum = sumOf(index, filled);
     const std::lock_guard lock(mutex_);
     if (!stream_) return;
-    if (std::fwrite(&number, sizeof number, 1, stream_) != 1 ||
+    if (std::fwrite(&index, sizeof index, 1, stream_) != 1 ||
         std::fwrite(filled.data(), sizeof(float), floats_, stream_) != floats_ ||
         std::fwrite(&sum, sizeof sum, 1, stream_) != 1 || std::fflush(stream_) != 0)
         failWriting(file_);

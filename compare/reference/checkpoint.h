@@ -18,7 +18,7 @@ namespace diptych::reference {
 class Checkpoint {
 public:
     struct Record {
-        std::uint64_t number;
+        std::uint64_t index;
         std::vector<float> values;
     };
 
@@ -36,10 +36,10 @@ public:
 
     const std::filesystem::path& file() const { return file_; }
 
-    // The records found at the start, each number once.
+    // The records found at the start, each index once.
     std::vector<Record> takeEarlier() { return std::move(earlier_); }
 
-    void keep(std::uint64_t number,
+    void keep(std::uint64_t index,
               std::span<const float> values);  // a record shorter than `floats` is padded with 0
 
     // Removes the file and stops saving records: the image has been written elsewhere.

@@ -128,10 +128,10 @@ std::uint64_t PixelRenderer::seedOf(int x, int y) const {
 
 Visibility PixelRenderer::visibilityFrom(const Foot& foot) const {
     if (!request_.shadows() && !request_.surroundings) return {};
-    const double from = foot.offset * glm::length(foot.place);
+    const double from = foot.offset * glm::length(foot.position);
     return [this, foot, from](const glm::dvec3& to_light, double distance) {
         if (!foot.normalTowards(to_light)) return false;
-        const Ray ray{foot.place, to_light, from, distance * (1 - lightOffset), foot.without};
+        const Ray ray{foot.position, to_light, from, distance * (1 - lightOffset), foot.without};
         return !geometry_.meets(ray, [this](const Hit& hit) { return materials_.throwsShadow(hit); });
     };
 }
@@ -141,9 +141,9 @@ double PixelRenderer::seenOfDisc(const Foot& foot, std::uint64_t seed) const {
     const double radius = emitterOf(*sun_, {}).radius;
     const glm::dvec3 centre = -sun_->direction, x = perpendicularTo(centre), y = glm::cross(centre, x);
     const Visibility visible = visibilityFrom(foot);
-    Random turn(streamOf(seed, discStream));
-    const double u = turn();
-    const glm::dvec2 shift(u, turn());
+    Random random(streamOf(seed, discStream));
+    const double u = random();
+    const glm::dvec2 shift(u, random());
     int seen = 0;
     for (int i = 0; i < samples; ++i) {
         const glm::dvec2 at = evenly(static_cast<std::uint64_t>(i), shift);
@@ -160,14 +160,15 @@ void PixelRenderer::takeShadow(Pixel& pixel, const Surface& s, const Foot& foot,
     const glm::dvec3 to_light = -sun_->direction;
     const auto sees = [&](const glm::dvec3& location) {
         Foot there = foot;
-        there.place = location;
+        there.position = location;
         return visibilityFrom(there)(to_light, std::numeric_limits<double>::infinity());
     };
-    pixel.sun_visibility = sun_->angle > 0 ? seenOfDisc(foot, seed) : sees(foot.place) ? 1 : 0;
+    pixel.sun_visibility = sun_->angle > 0 ? seenOfDisc(foot, seed) : sees(foot.position) ? 1 : 0;
     const std::optional<glm::dvec3> normal = foot.normalTowards(to_light);
     if (!normal) return;
     const bool partly = pixel.sun_visibility > 0 && pixel.sun_visibility < 1;
-    pixel.edge_distance = partly ? 0 : edgeDistance(sees, foot.place, *normal, to_light, 2 * scene_radius_);
+    pixel.edge_distance =
+        partly ? 0 : edgeDistance(sees, foot.position, *normal, to_light, 2 * scene_radius_);
     const glm::dvec3 irradiance = incident(*sun_, {}, {}).irradiance;
     pixel.sun_radiance = (lighting_.reflectance(s, to_light) * irradiance).size();
     const double n_dot_l = glm::dot(s.normal, to_light);
@@ -180,21 +181,21 @@ void PixelRenderer::takeLocalShadows(Pixel& pixel, const Surface& s, const Foot&
     double all = 0, seen = 0;
     for (const Light* const light : locals_) {
         const glm::dvec3 position = light->position - eye_;
-        const Incident here = incident(*light, position, foot.place, request_.falloff);
+        const Incident here = incident(*light, position, foot.position, request_.falloff);
         const double weight = luminance(here.irradiance);
         if (!(weight > 0)) continue;
         const auto sees = [&](const glm::dvec3& location) {
             Foot there = foot;
-            there.place = location;
+            there.position = location;
             const glm::dvec3 path = position - location;
             const double distance = glm::length(path);
             return visibilityFrom(there)(path / distance, distance);
         };
         all += weight;
-        if (sees(foot.place)) seen += weight;
+        if (sees(foot.position)) seen += weight;
         const std::optional<glm::dvec3> normal = foot.normalTowards(here.to_light);
         if (!normal) continue;
-        const double edge = edgeDistance(sees, foot.place, *normal, here.to_light, here.distance);
+        const double edge = edgeDistance(sees, foot.position, *normal, here.to_light, here.distance);
         pixel.local_edge = std::min(pixel.local_edge, edge / here.distance);
         pixel.local_radiance += (lighting_.reflectance(s, here.to_light) * here.irradiance).size();
     }

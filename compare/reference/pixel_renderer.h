@@ -52,7 +52,7 @@ private:
     // Light from behind the triangle does not reach it, whatever the shading normal, unless the surface
     // transmits it.
     struct Foot {
-        glm::dvec3 place, geometric_normal;
+        glm::dvec3 position, geometric_normal;
         TriangleId without;
         double offset;
         bool both_sides = false;

@@ -113,11 +113,11 @@ PixelRenderer::Passed PixelRenderer::passedThrough(const Pane& pane, std::uint64
     };
     if (!mesh && lobe.isOneRay())
         return passed([&](int c) { return passedAs(pane, c, {-s.to_viewer, 1}, seed); });
-    std::array<glm::dvec2, 8> turns;
+    std::array<glm::dvec2, 8> shifts;
     Random random(streamOf(seed, 0));
-    for (glm::dvec2& turn : turns) {
+    for (glm::dvec2& shift : shifts) {
         const double u = random();
-        turn = {u, random()};
+        shift = {u, random()};
     }
     glm::dvec3 fraction(0);
     std::size_t count = 0;
@@ -130,7 +130,7 @@ PixelRenderer::Passed PixelRenderer::passedThrough(const Pane& pane, std::uint64
             const std::uint64_t stream = streamOf(streamOf(seed, round + 1), index);
             const Passed one = passed([&](int c) {
                 return mesh ? passedMesh(pane, c, stream)
-                            : passedAs(pane, c, lobe(evenly(index, turns[round])), stream);
+                            : passedAs(pane, c, lobe(evenly(index, shifts[round])), stream);
             });
             fraction += one.fraction;
             ++count;

@@ -101,9 +101,9 @@ public:
         std::vector<bool> there(tiles, false);
         if (checkpoint)
             for (const Checkpoint::Record& record : checkpoint->takeEarlier())
-                if (record.number < tiles) {
-                    put(record.number, record.values);
-                    there[record.number] = true;
+                if (record.index < tiles) {
+                    put(record.index, record.values);
+                    there[record.index] = true;
                     image_.resumed_fraction += 1.0 / static_cast<double>(tiles);
                     image_.resumed_seconds +=
                         double{record.values.front()} / tbb::info::default_concurrency();

@@ -14,9 +14,10 @@ double largestComponent(const glm::dvec3& radiance) {
 // Factor from the square of a 95 % half-interval to the variance of a normal distribution.
 constexpr double variancesOf95 = 1 / (1.96 * 1.96);
 
-// Adds only the errors of Shadings. With weights w = 1 / (1 + c), a change of 1 in a sample c moves the
-// mean L by w^2 (1 + L) over the sum of w; this adds the w^2. The curve's bend turns a sample's noise of
-// variance v into a bias of w v times that (second term of the series).
+// Propagates the error of a sample c, whose weight is w = 1 / (1 + c), to the tone-mapped mean L. If c
+// changes by 1, L changes by w^2 (1 + L) / (sum of weights): this adds w^2, and put() multiplies by the
+// rest. The tone curve is bent, so noise of c with variance v also shifts L: by the second term of the
+// series, w v times as much.
 void addErrors(Shading& sum, const Shading& sample, double weight, double fraction) {
     const double u = sample.uncertainty, slope = fraction * weight * weight;
     sum.uncertainty += slope * (u + weight * u * u * variancesOf95);
@@ -52,7 +53,7 @@ void ResolvedLight::put(Pixel& pixel) const {
     pixel.transmitted = sum_.transmitted;
     pixel.shading = sum_.shading;
     pixel.blended = sum_.blended;
-    if (resolve_ == Resolve::linear) return;  // the shares' sum is 1
+    if (resolve_ == Resolve::linear) return;  // the sum of fractions is 1
     pixel.lit /= weights_;
     pixel.unblended /= unblended_weights_;
     pixel.haze.scattered /= weights_;

@@ -27,8 +27,8 @@ public:
 private:
     Resolve resolve_;
     double fraction_;
-    Pixel sum_;                                   // light times weight times share
-    double weights_ = 0, unblended_weights_ = 0;  // times share
+    Pixel sum_;                                   // light times weight times fraction_
+    double weights_ = 0, unblended_weights_ = 0;  // times fraction_
     Shading errors_, blended_errors_;             // propagated sample errors, if tonemapped
 };
 

@@ -51,7 +51,7 @@ Variant variantOf(const Material& material, const SlotTexels& texels) {
     if (diffusesThroughVolume(material)) variant.set(gpu::FEATURE_absorbing);
     variant.set(gpu::FEATURE_layers, layersOf(material) & ~gpu::LAYER_TRANSMISSION);
     variant.set(gpu::FEATURE_turned_maps,
-                turnedMaps(material, material.anisotropy > 0).layers & layersOf(material));
+                rotatedMaps(material, material.anisotropy > 0).layers & layersOf(material));
     return variant;
 }
 

@@ -11,8 +11,8 @@ namespace {
 std::vector<Frame> drawMaps(Scene scene, double degrees) {
     Primitive& p = scene.meshes[0].primitives[0];
     const Material& m = scene.materials[0];
-    const TurnedMaps turned = turnedMaps(m, true);
-    makeTangents(p, tangentMap(m), false, turned.layers != 0 ? &turned.map : nullptr);
+    const RotatedMaps rotated = rotatedMaps(m, true);
+    makeTangents(p, tangentMap(m), false, rotated.layers != 0 ? &rotated.map : nullptr);
     scene.nodes[0].parent_from_node =
         glm::scale(glm::rotate(glm::dmat4(1), glm::radians(degrees), glm::dvec3(0, 0, 1)), {2, -1, 1});
     Settings settings = smallImage(GBufferEncoding::full);

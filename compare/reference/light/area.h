@@ -27,7 +27,7 @@ class Patch {
 public:
     // A point of the patch, with its area element dA / (du dv), m^2.
     struct Point {
-        glm::dvec3 place, normal;  // the normal is unit
+        glm::dvec3 position, normal;  // the normal is unit
         double area;
     };
     Point at(double u, double v) const;

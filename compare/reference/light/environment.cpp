@@ -40,10 +40,10 @@ constexpr int maxAcross = 32, maxDown = 16;
 
 // A pixel's weight is its mean bilinearly interpolated brightness, so that it is above 0 wherever there is
 // light.
-EnvironmentLight::EnvironmentLight(const Environment& environment, double factor, double turned)
+EnvironmentLight::EnvironmentLight(const Environment& environment, double factor, double rotation)
     : image_(environment.radiance),
       factor_(factor),
-      turned_(turned),
+      rotation_(rotation),
       across_(std::min(maxAcross, image_.width)),
       down_(std::min(maxDown, image_.height)) {
     const int width = image_.width, height = image_.height;
@@ -103,13 +103,13 @@ glm::dvec3 EnvironmentLight::texel(int x, int y) const {
 }
 
 glm::dvec3 EnvironmentLight::directionOf(double x, double y) const {
-    const double azimuth = 2 * pi * x / image_.width - pi - turned_, polar = pi * y / image_.height;
+    const double azimuth = 2 * pi * x / image_.width - pi - rotation_, polar = pi * y / image_.height;
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar), -std::sin(polar) * std::cos(azimuth)};
 }
 
 // Azimuth grows toward +X, clockwise seen from above; undoing a counter-clockwise rotation adds to it.
 double EnvironmentLight::column(const glm::dvec3& d) const {
-    const double turns = (std::atan2(d.x, -d.z) + turned_) / (2 * pi) + 0.5;
+    const double turns = (std::atan2(d.x, -d.z) + rotation_) / (2 * pi) + 0.5;
     return (turns - std::floor(turns)) * image_.width;
 }
 

@@ -15,8 +15,8 @@ namespace diptych::reference {
 
 class EnvironmentLight {
 public:
-    // `turned`: rotation about +Y, counter-clockwise seen from above, rad.
-    EnvironmentLight(const Environment& environment, double factor, double turned = 0);
+    // `rotation`: about +Y, counter-clockwise seen from above, rad.
+    EnvironmentLight(const Environment& environment, double factor, double rotation = 0);
 
     bool black() const { return !(brightness_ > 0) || factor_ == 0; }
     glm::dvec3 radiance(const glm::dvec3& direction) const;  // W/(sr m^2); direction unit
@@ -62,7 +62,7 @@ private:
     std::size_t blockOf(Pixel pixel) const;
 
     const Image& image_;
-    double factor_, turned_, brightness_ = 0;
+    double factor_, rotation_, brightness_ = 0;
     std::vector<Block> blocks_;
     int across_ = 1, down_ = 1;   // blocks
     std::vector<double> weight_;  // of each pixel: brightness times solid angle

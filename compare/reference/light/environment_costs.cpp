@@ -26,8 +26,8 @@ double largest(const glm::dvec3& v) {
 constexpr int spiral = 2000;
 glm::dvec3 onSpiral(int i) {
     const double y = 1 - (2 * i + 1.0) / spiral, s = std::sqrt(1 - y * y),
-                 turn = i * pi * (3 - std::sqrt(5.0));
-    return {s * std::cos(turn), y, s * std::sin(turn)};
+                 azimuth = i * pi * (3 - std::sqrt(5.0));
+    return {s * std::cos(azimuth), y, s * std::sin(azimuth)};
 }
 
 // The mean of n.l under GGX if the viewer and the mirror direction coincide with the normal, by the
@@ -162,18 +162,18 @@ EnvironmentApproximation::Means EnvironmentApproximation::meansOf(const glm::dve
         wider_sum += radiance * (wider.density(l) * along / wider_cosine);
         return {radiance * (n_dot_l / pi), radiance * (in_lobe * along / cosine)};
     };
-    std::array<std::array<glm::dvec2, 2>, 8> turns;
+    std::array<std::array<glm::dvec2, 2>, 8> shifts;
     Random random(seed);
-    for (auto& round : turns)
-        for (glm::dvec2& turn : round) {
+    for (auto& round : shifts)
+        for (glm::dvec2& shift : round) {
             const double u = random();
-            turn = {u, random()};
+            shift = {u, random()};
         }
     const Estimated means = sampleUntilConfident(
         [&](std::size_t round, std::uint64_t index) {
             ++samples;
-            Reflected sum = value(lobe(evenly(index, turns[round][0])));
-            if (bright.all() > 0) sum += value(bright(evenly(index, turns[round][1])));
+            Reflected sum = value(lobe(evenly(index, shifts[round][0])));
+            if (bright.all() > 0) sum += value(bright(evenly(index, shifts[round][1])));
             return sum;
         },
         2, 8, 0, 0);

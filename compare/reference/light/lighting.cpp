@@ -20,9 +20,9 @@ namespace {
 
 // The radiance reflected from one point of a patch, times the solid angle of its area element.
 Reflected through(const Brdf& brdf, const Patch::Point& point) {
-    const double square = glm::dot(point.place, point.place);
+    const double square = glm::dot(point.position, point.position);
     if (!(square > 0) || point.area == 0) return {};
-    const glm::dvec3 to_light = point.place / std::sqrt(square);
+    const glm::dvec3 to_light = point.position / std::sqrt(square);
     return brdf(to_light) * (std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / square);
 }
 
@@ -31,7 +31,7 @@ Reflected through(const Brdf& brdf, const Patch::Point& point) {
 // splits cells that cover a large angle: in a light that extends far away, the near part is a small part
 // of the cell and gives most of the light.
 Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
-    const auto direction = [&](double u, double v) { return glm::normalize(patch.at(u, v).place); };
+    const auto direction = [&](double u, double v) { return glm::normalize(patch.at(u, v).position); };
     const double u = (cell.u0 + cell.u1) / 2, v = (cell.v0 + cell.v1) / 2;
     const glm::dvec3 middle = direction(u, v);
     const auto from = [&](double at_u, double at_v) { return glm::length(direction(at_u, at_v) - middle); };
@@ -47,12 +47,12 @@ Split mayHideLobe(const Brdf& brdf, const Patch& patch, const Cell& cell) {
     const double length = glm::length(sum);
     if (!(length > 1e-9)) return split(radius > 0.1);
     const glm::dvec3 half = sum / length;
-    const double turn = radius / (2 * std::max(glm::dot(brdf.toViewer(), half), 0.05));
+    const double angle = radius / (2 * std::max(glm::dot(brdf.toViewer(), half), 0.05));
     // Sine of the angle between half vector and normal; in an anisotropic lobe, across the lobe.
     const Widths& widths = brdf.widths();
-    const double apart = widths.isotropic() ? glm::length(glm::cross(brdf.normal(), half))
-                                            : std::abs(glm::dot(widths.y, half));
-    return split(turn > std::max(widths.across, apart - turn));
+    const double sine = widths.isotropic() ? glm::length(glm::cross(brdf.normal(), half))
+                                           : std::abs(glm::dot(widths.y, half));
+    return split(angle > std::max(widths.across, sine - angle));
 }
 
 // Random stream of a surface's random walks; no light has this index.
@@ -82,17 +82,18 @@ public:
     Reflected estimate(std::uint64_t seed, std::uint64_t index, bool mostly_visible,
                        std::size_t& seen) const {
         Reflected sum;
-        std::uint64_t number = 0;
+        std::uint64_t leaf_index = 0;
         for (const Leaves& part : leaves_)
             for (const Leaf& leaf : part.leaves) {
-                Random turn(streamOf(seed, ++number));
-                const double u = turn();
-                const glm::dvec2 at = evenly(index, {u, turn()});
+                Random random(streamOf(seed, ++leaf_index));
+                const double u = random();
+                const glm::dvec2 at = evenly(index, {u, random()});
                 const Cell& c = leaf.cell;
                 const Patch::Point point =
                     part.patch->at(c.u0 + (c.u1 - c.u0) * at.x, c.v0 + (c.v1 - c.v0) * at.y);
-                const double distance = glm::length(point.place);
-                const bool lit = distance > 0 && visible_(point.place / distance, far_ ? infinity : distance);
+                const double distance = glm::length(point.position);
+                const bool lit =
+                    distance > 0 && visible_(point.position / distance, far_ ? infinity : distance);
                 seen += lit;
                 const Reflected here = through(brdf_, point) * c.area();
                 if (mostly_visible)
@@ -102,7 +103,7 @@ public:
             }
         return sum;
     }
-    std::size_t places() const {
+    std::size_t leafCount() const {
         std::size_t count = 0;
         for (const Leaves& part : leaves_) count += part.leaves.size();
         return count;
@@ -186,7 +187,7 @@ Shading Lighting::layer(const Surface& surface, Multiscatter multiscatter, const
         const Reflected reflected = brdf(light.to_light) * light.irradiance;
         if (reflected.size() > 0 && (!p.casts || !visible || visible(light.to_light, light.distance))) {
             sum.reflected += reflected;
-            const glm::dvec2 of = brdf.rounding(light.to_light, light.turned) + light.rounding;
+            const glm::dvec2 of = brdf.rounding(light.to_light, light.angle_error) + light.rounding;
             const Reflected lobe{.specular = reflected.specular};
             sum.rounding += glm::dvec4((reflected - lobe).size() * of.x, lobe.size() * of.y, 0, 0);
         }
@@ -245,9 +246,9 @@ struct Lighting::Shining {
         for (const Patch& patch : patches) {
             const double u = random();
             const Patch::Point point = patch.at(u, random());
-            const double distance = glm::length(point.place);
+            const double distance = glm::length(point.position);
             if (!(distance > 0) || !(point.area > 0)) continue;
-            const glm::dvec3 to_light = point.place / distance;
+            const glm::dvec3 to_light = point.position / distance;
             const double angle =
                 std::max(-glm::dot(point.normal, to_light), 0.0) * point.area / (distance * distance);
             if (!casts || !visible || visible(to_light, far ? infinity : distance))
@@ -348,16 +349,16 @@ Shading Lighting::fromEmitter(const Emitter& emitter, const glm::dvec3& location
     if (!visible || !(whole.value.size() > 0)) return {whole.value * radiance, whole.error * brightest, {}};
 
     const Shaded shaded(brdf, leaves, emitter.far, visible);
-    const std::size_t places = shaded.places();
+    const std::size_t leaf_count = shaded.leafCount();
     std::size_t seen = 0, ignored = 0;
     constexpr std::uint64_t pilot = 2;
     for (std::uint64_t i = 0; i < pilot; ++i) shaded.estimate(~seed, i, false, seen);
-    const bool mostly_visible = 2 * seen > pilot * places;
+    const bool mostly_visible = 2 * seen > pilot * leaf_count;
     const Estimated estimated = sampleUntilConfident(
         [&](std::size_t round, std::uint64_t index) {
             return shaded.estimate(streamOf(seed, round), index, mostly_visible, ignored);
         },
-        places, std::max<std::uint64_t>(1, 8 / places), whole.value.size(), shaded.largestLeaf());
+        leaf_count, std::max<std::uint64_t>(1, 8 / leaf_count), whole.value.size(), shaded.largestLeaf());
     return {estimated.value * radiance, (estimated.uncertainty + whole.error) * brightest, {}};
 }
 
@@ -379,18 +380,18 @@ Estimated Lighting::fromEnvironment(const Brdf& brdf, bool lobeOnly, const Visib
         if (!(f.size() > 0) || (visible && !visible(l, infinity))) return {};
         return f * environment_->radiance(l) * (1 / (lobes.density(l) + bright.density(l)));
     };
-    std::array<std::array<glm::dvec2, 2>, 8> turns;
+    std::array<std::array<glm::dvec2, 2>, 8> shifts;
     Random random(streamOf(seed, 0));
-    for (auto& round : turns)
-        for (glm::dvec2& turn : round) {
+    for (auto& round : shifts)
+        for (glm::dvec2& shift : round) {
             const double u = random();
-            turn = {u, random()};
+            shift = {u, random()};
         }
     return sampleUntilConfident(
         [&](std::size_t round, std::uint64_t index) {
-            const auto& turn = turns[round];
-            Reflected sum = value(lobes(evenly(index, turn[0])));
-            if (bright.all() > 0) sum += value(bright(evenly(index, turn[1])));
+            const auto& shift = shifts[round];
+            Reflected sum = value(lobes(evenly(index, shift[0])));
+            if (bright.all() > 0) sum += value(bright(evenly(index, shift[1])));
             return sum;
         },
         2, 8, 0, 0);

@@ -33,16 +33,17 @@ Incident incident(const Light& light, const glm::dvec3& light_position, const gl
     Incident result{path / distance,
                     power / (distance * distance) * rangeWindow(distance, light.range, falloff.window),
                     distance, unit * glm::length(light_position) / distance + ofDirection};
-    result.rounding = 2 * result.turned;
+    result.rounding = 2 * result.angle_error;
     if (const double x = std::pow(distance / light.range, 4); x < 1)
-        result.rounding += (falloff.window == RangeWindow::squared ? 8 : 4) * x / (1 - x) * result.turned;
+        result.rounding +=
+            (falloff.window == RangeWindow::squared ? 8 : 4) * x / (1 - x) * result.angle_error;
     if (light.kind == LightKind::spot) {
         const double outer = std::cos(double{light.outer_cone}), inner = std::cos(double{light.inner_cone});
         // 0.001 is KHR_lights_punctual's constant: it keeps the slope finite for a cone with a hard edge.
         const double inside =
             (-glm::dot(result.to_light, light.direction) - outer) / std::max(0.001, inner - outer);
         const double t = std::clamp(inside, 0.0, 1.0);
-        if (t > 0 && t < 1) result.rounding += 2 * result.turned / (std::max(0.001, inner - outer) * t);
+        if (t > 0 && t < 1) result.rounding += 2 * result.angle_error / (std::max(0.001, inner - outer) * t);
         // The cubic Hermite curve with zero slope at both ends, or the square.
         result.irradiance *= falloff.cone == SpotFalloff::smoothstep ? 3 * t * t - 2 * t * t * t : t * t;
     }

@@ -24,7 +24,7 @@ struct Incident {
     glm::dvec3 irradiance{0};  // W/m^2 on a surface perpendicular to that direction
     double distance = 0;       // m; infinite for a directional light
     // Errors of a path's float32: the angle by which `to_light` turns, rad; of `irradiance`, relative.
-    double turned = 0, rounding = 0;
+    double angle_error = 0, rounding = 0;
 };
 
 // `light_position` and `position` are relative to the eye, as a path rounds them.

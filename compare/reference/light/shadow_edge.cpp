@@ -25,11 +25,12 @@ double edgeDistance(const SeesLight& sees, const glm::dvec3& position, const glm
         return sees(position + across - to_light * (glm::dot(normal, across) / cosine)) != here;
     };
     // Every other ring is rotated by half the angle between directions.
-    double turn = 0;
-    for (double radius = first; radius > 0 && radius <= 2 * farthest; radius *= 2, turn = 0.5 - turn) {
+    double rotation = 0;
+    for (double radius = first; radius > 0 && radius <= 2 * farthest;
+         radius *= 2, rotation = 0.5 - rotation) {
         double nearest = std::numeric_limits<double>::infinity();
         for (int i = 0; i < directions; ++i) {
-            const double angle = (i + turn) * 2 * std::numbers::pi / directions;
+            const double angle = (i + rotation) * 2 * std::numbers::pi / directions;
             const glm::dvec3 outwards = x * std::cos(angle) + y * std::sin(angle);
             double out = radius, in = radius == first ? 0 : out / 2;
             if (!differs(outwards * out)) continue;

@@ -46,11 +46,11 @@ Surroundings surroundingsOf(const Brdf& brdf, const EnvironmentLight* environmen
         if (!visible(l, std::numeric_limits<double>::infinity())) sum.hidden += light;
     };
     Random random(seed);
-    const auto turn = [&] {
+    const auto nextShift = [&] {
         const double u = random();
         return glm::dvec2(u, random());
     };
-    const glm::dvec2 cosines = turn(), lobes = turn(), lights = turn();
+    const glm::dvec2 cosines = nextShift(), lobes = nextShift(), lights = nextShift();
     for (std::uint64_t i = 0; i < each; ++i) {
         const glm::dvec2 u = evenly(i, cosines);
         const double across = std::sqrt(u.x), phi = 2 * std::numbers::pi * u.y;

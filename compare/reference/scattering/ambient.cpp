@@ -27,11 +27,11 @@ public:
         Reflected sum;
         each(0, 1, [&](double square, double step) {
             const double cosine = std::sqrt(square), sine = std::sqrt(1 - square);
-            each(0, std::numbers::pi, [&](double phi, double turn) {
+            each(0, std::numbers::pi, [&](double phi, double weight) {
                 const glm::dvec3 l(sine * std::cos(phi), sine * std::sin(phi), cosine);
                 Reflected f = brdf_(l);
                 f.specular -= brdf_.lobe(l);
-                sum += f * (step * turn / cosine);  // d(cos^2) dphi is 2 cos dl; both halves
+                sum += f * (step * weight / cosine);  // d(cos^2) dphi is 2 cos dl; both halves
             });
         });
         return sum;
@@ -96,17 +96,18 @@ private:
         std::ranges::sort(ends);
         glm::dvec3 sum(0);
         for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-            each(ends[i], ends[i + 1], [&](double turn, double step) { sum += alongSlope(turn) * step; });
+            each(ends[i], ends[i + 1],
+                 [&](double azimuth, double step) { sum += alongSlope(azimuth) * step; });
         return sum;
     }
 
     // Integrates over the half vectors of one direction of the stretched slopes, by the angle whose tangent
     // is their length. Light from above the horizon has slopes in a circle around the viewer's with the
     // radius 1 / n.v; its end is a root of a quadratic equation.
-    glm::dvec3 alongSlope(double turn) const {
+    glm::dvec3 alongSlope(double azimuth) const {
         const Widths& w = brdf_.widths();
         const glm::dvec3 v = brdf_.toViewer();
-        const glm::dvec3 slope = w.x * (w.along * std::cos(turn)) + w.y * (w.across * std::sin(turn));
+        const glm::dvec3 slope = w.x * (w.along * std::cos(azimuth)) + w.y * (w.across * std::sin(azimuth));
         const double a = glm::dot(slope, slope), b = glm::dot(slope, v) / v.z, root = std::sqrt(b * b + a);
         const double last = std::atan(b > 0 ? (b + root) / a : 1 / (root - b));
         glm::dvec3 sum(0);
@@ -131,10 +132,10 @@ private:
         // n.l = 2 (v.h) c - v.z > 0
         const double edge = (v.z / (2 * c) - v.z * c) / std::max(v.x * s, 1e-300);
         glm::dvec3 sum(0);
-        each(0, std::acos(std::clamp(edge, -1.0, 1.0)), [&](double phi, double turn) {
+        each(0, std::acos(std::clamp(edge, -1.0, 1.0)), [&](double phi, double weight) {
             const glm::dvec3 h(s * std::cos(phi), s * std::sin(phi), c);
             const double v_dot_h = glm::dot(v, h);
-            sum += brdf_.lobe(2 * v_dot_h * h - v) * (4 * v_dot_h * turn);  // dl = 4 v.h dh
+            sum += brdf_.lobe(2 * v_dot_h * h - v) * (4 * v_dot_h * weight);  // dl = 4 v.h dh
         });
         return sum * (2 * s);  // dh = sin(angle) d(angle) dphi; factor 2 for both halves
     }

@@ -161,8 +161,8 @@ Reflected Brdf::evaluate(const glm::dvec3& to_light) const {
 
 // GGX is proportional to 1 / k^2; k is the squared length of the half vector after its components along the
 // surface are divided by the widths. Turning the light turns the half vector by that over |l + v|.
-glm::dvec2 Brdf::rounding(const glm::dvec3& to_light, double turned) const {
-    const double of_cosine = turned / std::abs(glm::dot(normal_, to_light));
+glm::dvec2 Brdf::rounding(const glm::dvec3& to_light, double angle_error) const {
+    const double of_cosine = angle_error / std::abs(glm::dot(normal_, to_light));
     const glm::dvec3 half = halfway(to_light), up = normal_ * glm::dot(normal_, half), beside = half - up;
     if (sheen_) return glm::dvec2(of_cosine);
     const glm::dvec3 divided =
@@ -171,7 +171,7 @@ glm::dvec2 Brdf::rounding(const glm::dvec3& to_light, double turned) const {
                                         widths_.y * (glm::dot(widths_.y, half) / square(widths_.across)));
     const double k = glm::dot(divided, half), steepness = 4 * glm::length(divided - half * k) / k;
     return {of_cosine,
-            of_cosine + steepness * 2 * turned / std::max(glm::length(to_light + to_viewer_), 1e-3)};
+            of_cosine + steepness * 2 * angle_error / std::max(glm::length(to_light + to_viewer_), 1e-3)};
 }
 
 glm::dvec3 Brdf::halfway(const glm::dvec3& to_light) const {

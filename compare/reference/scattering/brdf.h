@@ -73,8 +73,8 @@ public:
     // The GGX or sheen lobe alone: `specular` without Compensation::between.
     glm::dvec3 lobe(const glm::dvec3& to_light) const { return evaluate(to_light).specular; }
 
-    // Relative errors of the diffuse and the specular lobe if float32 turns `to_light` by `turned`, rad.
-    glm::dvec2 rounding(const glm::dvec3& to_light, double turned) const;
+    // Relative errors of the diffuse and the specular lobe if float32 turns `to_light` by `angle_error`, rad.
+    glm::dvec2 rounding(const glm::dvec3& to_light, double angle_error) const;
 
     const glm::dvec3& normal() const { return normal_; }
     const glm::dvec3& toViewer() const { return to_viewer_; }

@@ -25,8 +25,8 @@ double Random::operator()() {
 
 // Neither factor is SplitMix64's increment; otherwise neighbouring streams would be the same sequence, one
 // step apart.
-std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number) {
-    return mixed(mixed(seed + 0xd1342543de82ef95u) + number * 0xaf251af3b0f025b5u);
+std::uint64_t streamOf(std::uint64_t seed, std::uint64_t index) {
+    return mixed(mixed(seed + 0xd1342543de82ef95u) + index * 0xaf251af3b0f025b5u);
 }
 
 glm::dvec2 evenly(std::uint64_t index, const glm::dvec2& shift) {

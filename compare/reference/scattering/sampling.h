@@ -22,8 +22,8 @@ private:
     std::uint64_t state_;
 };
 
-// The seed of stream `number` under `seed`; two streams are equal only by chance.
-std::uint64_t streamOf(std::uint64_t seed, std::uint64_t number);
+// The seed of stream `index` under `seed`; two streams are equal only by chance.
+std::uint64_t streamOf(std::uint64_t seed, std::uint64_t index);
 
 // Point `index` of the R2 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
 // Sequences"), shifted by `shift` on the torus (Cranley and Patterson 1976). Every range of consecutive

@@ -147,10 +147,10 @@ Materials::Frame Materials::frameAt(const Hit& hit) const {
     Frame frame{mixed<glm::dvec3>({normalAt(v[0]), normalAt(v[1]), normalAt(v[2])}, hit.barycentric),
                 mixed<glm::dvec3>({tangentAt(v[0]), tangentAt(v[1]), tangentAt(v[2])}, hit.barycentric),
                 sign};
-    if (turnedMaps(material(hit), material(hit).anisotropy > 0).layers == 0) return frame;
-    const auto turnAt = [&](std::uint32_t i) {
-        const MapTurn turn = MapTurn::of(primitive.tangents[i].w);
-        const glm::dvec2 own(turn.cosine, turn.sine);
+    if (rotatedMaps(material(hit), material(hit).anisotropy > 0).layers == 0) return frame;
+    const auto rotationAt = [&](std::uint32_t i) {
+        const TangentRotation rotation = TangentRotation::of(primitive.tangents[i].w);
+        const glm::dvec2 own(rotation.cosine, rotation.sine);
         if (posed) return own;
         // A node's scales change angles within the surface.
         const glm::dvec3 n(primitive.normals[i]), t(primitive.tangents[i]);
@@ -159,15 +159,16 @@ Materials::Frame Materials::frameAt(const Hit& hit) const {
         return glm::dvec2(glm::dot(along, tangentAt(i)),
                           glm::dot(along, sign * glm::cross(normalAt(i), tangentAt(i))));
     };
-    frame.turn = mixed<glm::dvec2>({turnAt(v[0]), turnAt(v[1]), turnAt(v[2])}, hit.barycentric);
-    frame.mirrored = MapTurn::of(primitive.tangents[v[0]].w).mirrored;
+    frame.rotation =
+        mixed<glm::dvec2>({rotationAt(v[0]), rotationAt(v[1]), rotationAt(v[2])}, hit.barycentric);
+    frame.mirrored = TangentRotation::of(primitive.tangents[v[0]].w).mirrored;
     return frame;
 }
 
-glm::dvec3 Materials::worldOf(const Material& m, const Frame& frame, bool (TurnedMaps::*of)() const,
+glm::dvec3 Materials::worldOf(const Material& m, const Frame& frame, bool (RotatedMaps::*of)() const,
                               const glm::dvec3& t) {
-    const TurnedMaps turned = turnedMaps(m, m.anisotropy > 0);
-    return (turned.*of)() ? frame.turnedWorld(t) : frame.world(t);
+    const RotatedMaps rotated = rotatedMaps(m, m.anisotropy > 0);
+    return (rotated.*of)() ? frame.rotatedWorld(t) : frame.world(t);
 }
 
 template <TextureSlot Material::*texture>
@@ -201,7 +202,7 @@ void Materials::coat(const Hit& hit, const PixelRay& ray, const Frame& frame, Su
         double{m.clearcoat_roughness} * lookUp<&Material::clearcoat_roughness_texture>(m, hit, &ray).g;
     const bool has_map = m.clearcoat_normal_texture.texture >= 0 && m.clearcoat_normal_scale != 0;
     const glm::dvec3 n =
-        has_map ? worldOf(m, frame, &TurnedMaps::ofCoat,
+        has_map ? worldOf(m, frame, &RotatedMaps::ofCoat,
                           mapped<&Material::clearcoat_normal_texture>(m, hit, m.clearcoat_normal_scale, ray))
                 : frame.normal;
     s.clearcoat_normal = facing(hit, n, s);
@@ -219,9 +220,9 @@ void Materials::stretch(const Hit& hit, const PixelRay& ray, const Frame& frame,
     }
     const double cosine = std::cos(double{m.anisotropy_rotation}),
                  sine = std::sin(double{m.anisotropy_rotation});
-    const glm::dvec3 turned(cosine * direction.x - sine * direction.y,
-                            sine * direction.x + cosine * direction.y, 0);
-    s.stretch(strength, worldOf(m, frame, &TurnedMaps::ofAnisotropy, turned));
+    const glm::dvec3 rotated(cosine * direction.x - sine * direction.y,
+                             sine * direction.x + cosine * direction.y, 0);
+    s.stretch(strength, worldOf(m, frame, &RotatedMaps::ofAnisotropy, rotated));
 }
 
 // KHR_materials_sheen: colour from RGB, roughness from alpha.

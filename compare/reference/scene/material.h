@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 namespace diptych {
-struct TurnedMaps;
+struct RotatedMaps;
 }
 
 namespace diptych::reference {
@@ -71,22 +71,22 @@ private:
     // The frame of normal maps, world space, interpolated without normalisation.
     struct Frame {
         glm::dvec3 normal, tangent;
-        double sign;            // bitangent = sign * cross(normal, tangent)
-        glm::dvec2 turn{1, 0};  // the tangent of turned maps, along tangent and bitangent
-        bool mirrored = false;  // whether their bitangent has the other sign
+        double sign;                // bitangent = sign * cross(normal, tangent)
+        glm::dvec2 rotation{1, 0};  // the tangent of rotated maps, along tangent and bitangent
+        bool mirrored = false;      // whether their bitangent has the other sign
         glm::dvec3 bitangent() const { return sign * glm::cross(normal, tangent); }
         glm::dvec3 world(const glm::dvec3& t) const {
             return t.x * tangent + t.y * bitangent() + t.z * normal;
         }
-        glm::dvec3 turnedWorld(const glm::dvec3& t) const {
-            const glm::dvec3 b = bitangent(), along = turn.x * tangent + turn.y * b,
-                             across = turn.x * b - turn.y * tangent;
+        glm::dvec3 rotatedWorld(const glm::dvec3& t) const {
+            const glm::dvec3 b = bitangent(), along = rotation.x * tangent + rotation.y * b,
+                             across = rotation.x * b - rotation.y * tangent;
             return t.x * along + (mirrored ? -t.y : t.y) * across + t.z * normal;
         }
     };
     Frame frameAt(const Hit& hit) const;
     // A vector of the map of a layer, whose tangents may be its own (`of`).
-    static glm::dvec3 worldOf(const Material& m, const Frame& frame, bool (TurnedMaps::*of)() const,
+    static glm::dvec3 worldOf(const Material& m, const Frame& frame, bool (RotatedMaps::*of)() const,
                               const glm::dvec3& t);
     // A normal map's value, tangent space, not normalised.
     template <TextureSlot Material::*texture>

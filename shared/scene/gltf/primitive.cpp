@@ -240,19 +240,19 @@ private:
             if (!anisotropic && tangentSlot(use_.materials[material]) == gpu::SLOT_COUNT)
                 return makeAnyTangents(result_);
             const TextureSlot map = tangentMap(use_.materials[material]);
-            const TurnedMaps turned = turnedMaps(use_.materials[material], anisotropic);
+            const RotatedMaps rotated = rotatedMaps(use_.materials[material], anisotropic);
             if (anisotropic &&
-                result_.texcoords[(turned.layers & gpu::LAYER_ANISOTROPY ? turned.map : map).texcoord]
+                result_.texcoords[(rotated.layers & gpu::LAYER_ANISOTROPY ? rotated.map : map).texcoord]
                     .empty())
                 note("direction of anisotropy is arbitrary: no tangents, no texture coordinates");
-            if (turned.third)
+            if (rotated.third)
                 note("anisotropy takes the tangents of the normal map: only the clear coat's map has others");
-            if (turned.layers != 0 && (use_.maps_that_turn[material] || use_.layer_maps_that_turn[material]))
+            if (rotated.layers != 0 && (use_.maps_that_turn[material] || use_.layer_maps_that_turn[material]))
                 note(
                     "animations turn texture coordinates: the clear coat's and anisotropy's tangents keep "
                     "their angle to the normal map's");
             return makeTangents(result_, map, use_.maps_that_turn[material],
-                                turned.layers != 0 ? &turned.map : nullptr);
+                                rotated.layers != 0 ? &rotated.map : nullptr);
         }
         const std::vector<glm::vec4> own = std::move(result_.tangents);
         makeAnyTangents(result_);  // fallback for the file's tangents without a direction

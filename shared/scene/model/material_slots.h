@@ -101,7 +101,7 @@ inline bool sameDirections(const TextureSlot& a, const TextureSlot& b) {
 
 // Maps of layers whose generated tangents differ from those of tangentMap(). Vertices store one further
 // frame; a third is left out. Anisotropy without a texture takes the normal texture's UV set, untransformed.
-struct TurnedMaps {
+struct RotatedMaps {
     std::uint32_t layers = 0;  // a sum of LAYER_CLEARCOAT and LAYER_ANISOTROPY
     TextureSlot map{};
     bool third = false;  // anisotropy, which takes the frame of tangentMap()
@@ -109,7 +109,7 @@ struct TurnedMaps {
     bool ofCoat() const { return (layers & gpu::LAYER_CLEARCOAT) != 0; }
     bool ofAnisotropy() const { return (layers & gpu::LAYER_ANISOTROPY) != 0; }
 };
-inline TurnedMaps turnedMaps(const Material& m, bool anisotropic) {
+inline RotatedMaps rotatedMaps(const Material& m, bool anisotropic) {
     const TextureSlot base = tangentMap(m), coat = m.clearcoat_normal_texture;
     const TextureSlot own =
         m.anisotropy_texture.texture >= 0

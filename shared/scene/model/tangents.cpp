@@ -65,38 +65,38 @@ TangentGroups groupsOf(const TangentSpace& space, const std::vector<std::uint32_
     return groups;
 }
 
-MapTurn between(const glm::vec3& normal, const glm::vec4& from, const glm::vec4& to) {
+TangentRotation between(const glm::vec3& normal, const glm::vec4& from, const glm::vec4& to) {
     const glm::dvec3 tangent(from), other(to),
         bitangent = double{from.w} * glm::cross(glm::dvec3(normal), tangent);
-    const glm::dvec2 turn(glm::dot(tangent, other), glm::dot(bitangent, other));
-    const double length = glm::length(turn);
+    const glm::dvec2 rotation(glm::dot(tangent, other), glm::dot(bitangent, other));
+    const double length = glm::length(rotation);
     if (!(length > 0)) return {};
-    return {turn.x / length, turn.y / length, (from.w < 0) != (to.w < 0)};
+    return {rotation.x / length, rotation.y / length, (from.w < 0) != (to.w < 0)};
 }
 
 }  // namespace
 
-MapTurn MapTurn::of(float w) {
-    const double coded = std::abs(double{w}) - 1, turn = coded - std::floor(coded);
+TangentRotation TangentRotation::of(float w) {
+    const double coded = std::abs(double{w}) - 1, rotation = coded - std::floor(coded);
     const auto side = [](double t) { return 4 * std::abs(t - std::floor(t) - 0.5) - 1; };
-    const glm::dvec2 on_square(side(turn), side(turn + 0.75));
+    const glm::dvec2 on_square(side(rotation), side(rotation + 0.75));
     const glm::dvec2 unit = glm::normalize(on_square);
     return {unit.x, unit.y, coded >= 1};
 }
 
-float MapTurn::times(float sign) const {
-    const double x = cosine / (std::abs(cosine) + std::abs(sine)), turn = (sine < 0 ? 3 + x : 1 - x) / 4;
-    const float min = mirrored ? 2 : 1, coded = static_cast<float>(double{min} + turn);
+float TangentRotation::times(float sign) const {
+    const double x = cosine / (std::abs(cosine) + std::abs(sine)), rotation = (sine < 0 ? 3 + x : 1 - x) / 4;
+    const float min = mirrored ? 2 : 1, coded = static_cast<float>(double{min} + rotation);
     return sign * (coded < min + 1 ? coded : min);
 }
 
-glm::vec4 turnedTangent(const glm::vec3& normal, const glm::vec4& tangent) {
-    const MapTurn turn = MapTurn::of(tangent.w);
+glm::vec4 rotatedTangent(const glm::vec3& normal, const glm::vec4& tangent) {
+    const TangentRotation rotation = TangentRotation::of(tangent.w);
     const float sign = signOf(tangent.w);
     const glm::vec3 along(tangent);
-    return {along * static_cast<float>(turn.cosine) +
-                glm::cross(normal, along) * (sign * static_cast<float>(turn.sine)),
-            turn.mirrored ? -sign : sign};
+    return {along * static_cast<float>(rotation.cosine) +
+                glm::cross(normal, along) * (sign * static_cast<float>(rotation.sine)),
+            rotation.mirrored ? -sign : sign};
 }
 
 void makeFlatNormals(Primitive& primitive) {

@@ -37,8 +37,8 @@ Path twoRecords() {
 std::vector<std::uint64_t> numbersIn(Checkpoint& checkpoint) {
     std::vector<std::uint64_t> numbers;
     for (const Checkpoint::Record& record : checkpoint.takeEarlier()) {
-        EXPECT_EQ(record.values, record.number == 10 ? firstValues : secondValues);
-        numbers.push_back(record.number);
+        EXPECT_EQ(record.values, record.index == 10 ? firstValues : secondValues);
+        numbers.push_back(record.index);
     }
     return numbers;
 }

@@ -324,12 +324,12 @@ TEST(GltfLayers, EachMapHasTheTangentsOfItsCoordinates) {
         GltfFile f = mapped(material);
         const Scene scene = f.load();
         const Primitive& p = f.only(scene);
-        EXPECT_EQ(turnedMaps(scene.materials.at(0), scene.materials[0].anisotropy > 0).layers != 0,
+        EXPECT_EQ(rotatedMaps(scene.materials.at(0), scene.materials[0].anisotropy > 0).layers != 0,
                   expected != none)
             << what;
         EXPECT_FALSE(mentions(scene.notes, "takes the tangents of the normal map")) << what;
         for (std::size_t v = 0; v < p.tangents.size(); ++v) {
-            const glm::vec4 turned = turnedTangent(p.normals[v], p.tangents[v]);
+            const glm::vec4 turned = rotatedTangent(p.normals[v], p.tangents[v]);
             if (expected == none) {
                 EXPECT_EQ(std::abs(p.tangents[v].w), 1) << what;
                 continue;

@@ -120,21 +120,21 @@ TEST(Tangents, FollowTheTransformOfTheirMap) {
 
 // In one float with the bitangent's sign, which is exactly 1 without a turn.
 TEST(Tangents, ATurnIsStoredWithTheSign) {
-    EXPECT_EQ(MapTurn{}.times(-1), -1);
-    EXPECT_EQ(MapTurn::of(-1).cosine, 1);
-    EXPECT_EQ(MapTurn::of(-1).sine, 0);
+    EXPECT_EQ(TangentRotation{}.times(-1), -1);
+    EXPECT_EQ(TangentRotation::of(-1).cosine, 1);
+    EXPECT_EQ(TangentRotation::of(-1).sine, 0);
     for (const bool mirrored : {false, true})
         for (const float sign : {-1.0f, 1.0f})
             for (int i = -1000; i <= 1000; ++i) {
                 // Also turns that are nearly none or whole.
                 const double angle = i % 2 == 0 ? i * 6.283185307 / 1000 : i * 1e-10;
-                const MapTurn turn{std::cos(angle), std::sin(angle), mirrored};
-                const float stored = turn.times(sign);
-                const MapTurn read = MapTurn::of(stored);
+                const TangentRotation rotation{std::cos(angle), std::sin(angle), mirrored};
+                const float stored = rotation.times(sign);
+                const TangentRotation read = TangentRotation::of(stored);
                 EXPECT_EQ(signOf(stored), sign);
                 EXPECT_EQ(read.mirrored, mirrored) << angle;
-                EXPECT_NEAR(read.cosine, turn.cosine, 1e-6) << angle;
-                EXPECT_NEAR(read.sine, turn.sine, 1e-6) << angle;
+                EXPECT_NEAR(read.cosine, rotation.cosine, 1e-6) << angle;
+                EXPECT_NEAR(read.sine, rotation.sine, 1e-6) << angle;
             }
 }
 
