@@ -33,8 +33,8 @@ double Microsurface::lambda(const glm::dvec3& w) const {
 
 // Samples a facet visible from a direction above or below: Dupuy and Benyoub 2023, "Sampling Visible GGX
 // Normals with Spherical Caps".
-glm::dvec3 Microsurface::facet(const glm::dvec3& seen_from, Random& random) const {
-    const glm::dvec3 w = glm::normalize(glm::dvec3(alpha_ * seen_from.x, alpha_ * seen_from.y, seen_from.z));
+glm::dvec3 Microsurface::visibleNormal(const glm::dvec3& direction, Random& random) const {
+    const glm::dvec3 w = glm::normalize(glm::dvec3(alpha_ * direction.x, alpha_ * direction.y, direction.z));
     const double phi = 2 * std::numbers::pi * random(), z = (1 - random()) * (1 + w.z) - w.z;
     const double r = std::sqrt(std::clamp(1 - z * z, 0.0, 1.0));
     const glm::dvec3 h(r * std::cos(phi) + w.x, r * std::sin(phi) + w.y, z + w.z);
@@ -51,7 +51,7 @@ double Microsurface::next(const glm::dvec3& on, double height, Random& random) c
 
 // The phase function of facets visible from `back_`: D (Walter et al. 2007) over their projected area,
 // times the probability that the light leaves the surface.
-Microsurface::Facet::Seen Microsurface::Facet::of(const glm::dvec3& to_light) const {
+Microsurface::Facet::Reflection Microsurface::Facet::evaluate(const glm::dvec3& to_light) const {
     const glm::dvec3 h = to_light + back_;
     const double length = glm::length(h);
     if (!(to_light.z > 0) || !(length > 1e-12) || !(h.z > 0)) return {0, 0};
@@ -98,9 +98,10 @@ Between::Path Between::path(Random& random, const std::function<void(const Add&)
     const auto visit = [&](const Microsurface::Facet& facet, double cosine) {
         if (++met > 1)
             lights([&](const glm::dvec3& to_light, const glm::dvec3& irradiance) {
-                const Microsurface::Facet::Seen seen = facet.of(local(to_light));
-                if (seen.fraction > 0)
-                    result.direct += mixed(reflected(weights, seen.cosine)) * (seen.fraction * irradiance);
+                const Microsurface::Facet::Reflection reflection = facet.evaluate(local(to_light));
+                if (reflection.fraction > 0)
+                    result.direct +=
+                        mixed(reflected(weights, reflection.cosine)) * (reflection.fraction * irradiance);
             });
         weights = reflected(weights, cosine);
     };

@@ -26,11 +26,11 @@ public:
         Facet(const Microsurface& surface, const glm::dvec3& back, double height)
             : surface_(surface), back_(back), height_(height) {}
 
-        struct Seen {
+        struct Reflection {
             double cosine;    // between the light and the normal of the facet that mirrors it
             double fraction;  // fraction of the path's radiance from that light with F = 1, 1/sr
         };
-        Seen of(const glm::dvec3& to_light) const;
+        Reflection evaluate(const glm::dvec3& to_light) const;
 
     private:
         const Microsurface& surface_;
@@ -44,7 +44,7 @@ public:
     glm::dvec3 trace(const glm::dvec3& from, Random& random, const Visit& visit) const;
 
     // The normal of a random facet that is visible from a direction.
-    glm::dvec3 facet(const glm::dvec3& seen_from, Random& random) const;
+    glm::dvec3 visibleNormal(const glm::dvec3& direction, Random& random) const;
 
 private:
     double lambda(const glm::dvec3& w) const;
@@ -61,7 +61,7 @@ glm::dvec3 Microsurface::trace(const glm::dvec3& from, Random& random, const Vis
     for (double height = 0;;) {
         height = next(on, height, random);
         if (height > 0) return on;
-        const glm::dvec3 back = -on, normal = facet(back, random);
+        const glm::dvec3 back = -on, normal = visibleNormal(back, random);
         const double cosine = std::max(glm::dot(back, normal), 0.0);
         visit(Facet(*this, back, height), cosine);
         on = glm::normalize(2 * cosine * normal - back);

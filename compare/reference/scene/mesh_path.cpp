@@ -24,7 +24,7 @@ glm::dvec3 MeshPaths::facetOf(const Boundary& b, const glm::dvec3& along, Random
     const glm::dvec3 x = perpendicularTo(b.normal), y = glm::cross(b.normal, x), back = -along;
     const glm::dvec3 from(glm::dot(x, back), glm::dot(y, back), glm::dot(b.normal, back));
     if (!(from.z > 0)) return b.normal;
-    const glm::dvec3 h = Microsurface(b.roughness * b.roughness).facet(from, random);
+    const glm::dvec3 h = Microsurface(b.roughness * b.roughness).visibleNormal(from, random);
     return glm::normalize(x * h.x + y * h.y + b.normal * h.z);
 }
 
