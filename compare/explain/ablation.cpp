@@ -36,7 +36,7 @@ Ablation::Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const
         const auto found = std::ranges::find(undeclared, option, &UndeclaredSetting::option);
         causes_.push_back(
             {AblationCause::Kind::setting, 0, std::string(option),
-             found != undeclared.end() ? found->shows : fmt::format("{} instead of {}", now, before)});
+             found != undeclared.end() ? found->description : fmt::format("{} instead of {}", now, before)});
     }
     if (causes_.size() > static_cast<std::size_t>(maxCauses))
         throw std::runtime_error(
@@ -45,7 +45,7 @@ Ablation::Ablation(const ExplainedSides& sides, ChannelLighting& lighting, const
 }
 
 // Describes roughness widened by specular anti-aliasing, and normals changed by skinning.
-std::string Ablation::shownBy(const DebugMode& mode) const {
+std::string Ablation::descriptionOf(const DebugMode& mode) const {
     const bool widened = sides_.settings(1).spec_aa && !sides_.settings(0).spec_aa;
     if (widened && mode.name == "roughness")
         return fmt::format("{}, widened by normals (--spec-aa on --spec-aa-kernel {})", mode.shows,
@@ -72,7 +72,7 @@ void Ablation::findChannels() {
         if (std::ranges::count(without_effect, c) > 0)
             without_effect_.emplace_back(mode.name);
         else
-            causes_.push_back({AblationCause::Kind::channel, c, std::string(mode.name), shownBy(mode)});
+            causes_.push_back({AblationCause::Kind::channel, c, std::string(mode.name), descriptionOf(mode)});
     }
 }
 
@@ -91,7 +91,7 @@ void Ablation::findComponents(const Scene& scene) {
     components_.emplace(sides_.frame(0), sides_.frame(1), sides_.lit(1), own);
     for (std::size_t i = 0; i < components_->components().size(); ++i)
         causes_.push_back({AblationCause::Kind::component, i, components_->components()[i].name,
-                           components_->components()[i].shows});
+                           components_->components()[i].description});
 }
 
 const LightingComponents::Component* Ablation::componentOf(const AblationCause& cause) const {

@@ -25,7 +25,7 @@ struct AblationCause {
     Kind kind;
     // A channel's index into surfaceChannels(), or a component's into LightingComponents::components().
     std::size_t index = 0;
-    std::string name, shows;  // "normals", or a Setting's option; description
+    std::string name, description;  // name: "normals", or a Setting's option
 
     std::string title() const { return (kind == Kind::setting ? "--" : "") + name; }
 };
@@ -50,7 +50,7 @@ public:
     Image lit(Subset subset);
 
 private:
-    std::string shownBy(const DebugMode& mode) const;
+    std::string descriptionOf(const DebugMode& mode) const;
     void findChannels();
     void findComponents(const Scene& scene);
 

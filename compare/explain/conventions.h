@@ -16,7 +16,7 @@ namespace diptych {
 
 struct Convention {
     std::string_view option, value;
-    std::string_view shows;  // description of the cause
+    std::string_view description;  // of the cause
 };
 
 // Renders and compares trials with another renderer's image.

@@ -31,8 +31,8 @@ using page::number;
 namespace {
 
 // A row names at most three materials and three lights, each with at least 5 % of the cause's contribution.
-constexpr std::size_t shownParts = 3;
-constexpr double shownPart = 0.05;
+constexpr std::size_t maxListedParts = 3;
+constexpr double minListedPart = 0.05;
 constexpr const char* litFiles[] = {"lit.baseline.png", "lit.test.png"};
 
 std::string percent(double contribution) {
@@ -41,17 +41,17 @@ std::string percent(double contribution) {
 
 // "78 % material 12, Lantern glass; 9 % background; 60 % light 3, lamp".
 std::string partsOf(const Cause& cause) {
-    std::vector<std::string> words;
+    std::vector<std::string> items;
     for (const auto& [parts, noun] : {std::pair{&cause.materials, "material"}, {&cause.lights, "light"}})
-        for (const CausePart& part : std::span(*parts).first(std::min(parts->size(), shownParts))) {
+        for (const CausePart& part : std::span(*parts).first(std::min(parts->size(), maxListedParts))) {
             const double contribution = cause.contribution != 0 ? part.contribution / cause.contribution : 0;
-            if (contribution < shownPart) break;
-            words.push_back(
+            if (contribution < minListedPart) break;
+            items.push_back(
                 fmt::format("{:.0f} % {}{}{}", 100 * contribution,
                             part.index < 0 ? "background" : fmt::format("{} {}", noun, part.index),
                             part.name.empty() ? "" : ", ", part.name));
         }
-    return fmt::format("{}", fmt::join(words, "; "));
+    return fmt::format("{}", fmt::join(items, "; "));
 }
 
 // In the cause's colour.
@@ -90,7 +90,7 @@ output::Table causeTable(const Explanation& e) {
               percentOf(cause.contribution) + (cause.interval > 0 ? " +- " + percentOf(cause.interval) : ""),
               percent(e.fractionOfFlip(cause.flip)), percentOf(cause.alone), percentOf(cause.last),
               fmt::format("{:.1f} %", 100 * cause.dominates),
-              fmt::format("{},{}", cause.worst_x, cause.worst_y), number(cause.worst), cause.shows,
+              fmt::format("{},{}", cause.worst_x, cause.worst_y), number(cause.worst), cause.description,
               partsOf(cause)}});
     table.rows.push_back(
         {{"unexplained", percentOf(e.unexplained), percent(e.fractionOfFlip(e.flip_unexplained)), "", "", "",
@@ -105,7 +105,7 @@ output::Table deviceTable(const Explanation& e) {
         .box = "box scroll devices",
         .indent = 2};
     for (const DeviceContribution& part : e.devices)
-        table.rows.push_back({{part.name, percent(e.fractionOf(part.contribution)), part.shows}});
+        table.rows.push_back({{part.name, percent(e.fractionOf(part.contribution)), part.description}});
     return table;
 }
 
@@ -165,10 +165,10 @@ std::vector<Block> imageBlocks(const Explanation& e, const ExplainedImages& of) 
 std::string headlineOf(const Explanation& e) {
     if (e.distance == 0) return "no cause: lit is the same";
     const auto listed = [&](const auto& parts) {
-        std::vector<std::string> words;
+        std::vector<std::string> items;
         for (const auto& part : parts)
-            words.push_back(fmt::format("{} {:.1f} %", part.name, 100 * e.fractionOf(part.contribution)));
-        return fmt::format("{}", fmt::join(words, ", "));
+            items.push_back(fmt::format("{} {:.1f} %", part.name, 100 * e.fractionOf(part.contribution)));
+        return fmt::format("{}", fmt::join(items, ", "));
     };
     return fmt::format("lit differs {}{}; unexplained {:.1f} %{}{}",
                        e.causes.empty() ? "for an unknown reason" : "because of ", listed(e.causes),

@@ -141,13 +141,13 @@ std::vector<CausePair> pairsOf(const Contributions& contributions, const std::ve
                                double distance) {
     std::vector<CausePair> pairs;
     if (contributions.interaction.empty()) return pairs;
-    const auto placeOf = [&](std::size_t cause) {
+    const auto rankOf = [&](std::size_t cause) {
         return static_cast<std::size_t>(std::ranges::find(order, cause) - order.begin());
     };
     for (std::size_t j = 1; j < contributions.contribution.size(); ++j)
         for (std::size_t i = 0; i < j; ++i) {
             const double both = contributions.interaction[i + j * (j - 1) / 2];
-            const std::size_t a = placeOf(i), b = placeOf(j);
+            const std::size_t a = rankOf(i), b = rankOf(j);
             if (std::max(a, b) < order.size() && std::abs(both) > namedPair * distance)
                 pairs.push_back({std::min(a, b), std::max(a, b), both});
         }
@@ -180,7 +180,7 @@ void rank(const AblationResults& results, const Ablation& ablation, const Scene&
         const auto worst = static_cast<int>(
             std::ranges::max_element(map, {}, [sign](double at) { return sign * at; }) - map.begin());
         found.causes.push_back({.name = cause.title(),
-                                .shows = cause.shows,
+                                .description = cause.description,
                                 .contribution = contributions.contribution[i],
                                 .interval = contributions.interval[i],
                                 .alone = contributions.alone[i],
@@ -201,11 +201,12 @@ void rank(const AblationResults& results, const Ablation& ablation, const Scene&
                 found.dominant.data[p] = static_cast<float>(k);
             }
     }
-    const auto& places = found.dominant.data;
-    const auto with_cause = std::ranges::count_if(places, [](float position) { return position >= 0; });
+    const auto& dominant_causes = found.dominant.data;
+    const auto with_cause = std::ranges::count_if(dominant_causes, [](float cause) { return cause >= 0; });
     for (std::size_t k = 0; with_cause > 0 && k < order.size(); ++k)
-        found.causes[k].dominates = static_cast<double>(std::ranges::count(places, static_cast<float>(k))) /
-                                    static_cast<double>(with_cause);
+        found.causes[k].dominates =
+            static_cast<double>(std::ranges::count(dominant_causes, static_cast<float>(k))) /
+            static_cast<double>(with_cause);
     found.pairs = pairsOf(contributions, order, found.distance);
 }
 

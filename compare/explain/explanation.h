@@ -19,8 +19,8 @@ struct CausePart {
 };
 
 struct Cause {
-    std::string name;            // "normals"; "--haze"; "samples of a pixel"
-    std::string shows;           // description
+    std::string name;  // "normals"; "--haze"; "samples of a pixel"
+    std::string description;
     double contribution = 0;     // of Explanation::distance, W/(sr m^2)
     double interval = 0;         // half the 95 % confidence interval; 0: exact
     double alone = 0, last = 0;  // effect of swapping it alone; effect of swapping it last
@@ -47,8 +47,8 @@ struct CausePair {
 
 // A source's part of the distance between one path on two devices.
 struct DeviceContribution {
-    std::string name, shows;  // "textures"; its description
-    double contribution = 0;  // W/(sr m^2), as Cause::contribution
+    std::string name, description;  // name: "textures"
+    double contribution = 0;        // W/(sr m^2), as Cause::contribution
 };
 
 struct Explanation {

@@ -40,8 +40,8 @@ Image sumOfMaps(const Explanation& explanation) {
 
 }  // namespace
 
-Color8 causeColor(std::size_t place) {
-    return place < ownColors ? palette[place] : otherColor;
+Color8 causeColor(std::size_t index) {
+    return index < ownColors ? palette[index] : otherColor;
 }
 
 std::string contributionFile(const Explanation& explanation, std::size_t cause) {
@@ -53,15 +53,16 @@ std::string contributionFile(const Explanation& explanation, std::size_t cause) 
 }
 
 Image8 dominantImage(const Explanation& explanation, const Image8& shown) {
-    const Image& places = explanation.dominant;
-    if (shown.width != places.width || shown.height != places.height)
+    const Image& dominant_causes = explanation.dominant;
+    if (shown.width != dominant_causes.width || shown.height != dominant_causes.height)
         throw std::logic_error("the picture behind a map of causes has another size");
-    Image8 image{places.width, places.height, 3, std::vector<std::uint8_t>(3 * places.pixels())};
+    Image8 image{dominant_causes.width, dominant_causes.height, 3,
+                 std::vector<std::uint8_t>(3 * dominant_causes.pixels())};
     const auto components = static_cast<std::size_t>(shown.components);
-    for (std::size_t p = 0; p < places.pixels(); ++p) {
-        const float place = places.pixel(p)[0];
-        if (place >= 0) {
-            put(image, p, causeColor(static_cast<std::size_t>(place)));
+    for (std::size_t p = 0; p < dominant_causes.pixels(); ++p) {
+        const float index = dominant_causes.pixel(p)[0];
+        if (index >= 0) {
+            put(image, p, causeColor(static_cast<std::size_t>(index)));
             continue;
         }
         // Rec. 709 weights on encoded values; the image only has to be recognisable.

@@ -96,7 +96,7 @@ Json termsJson(const PixelBreakdown& breakdown) {
 
 nlohmann::ordered_json toJson(const Explanation& e, const ExplainedImages& of) {
     const auto deviceJson = [&](const DeviceContribution& part) -> Json {
-        return {{"name", part.name}, {"share", e.fractionOf(part.contribution)}, {"shows", part.shows}};
+        return {{"name", part.name}, {"share", e.fractionOf(part.contribution)}, {"shows", part.description}};
     };
     const auto partsJson = [&](const Cause& cause, const std::vector<CausePart>& parts, const char* index) {
         Json all = Json::array();
@@ -111,7 +111,7 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedImages& of) {
                 {"share", e.fractionOf(cause.contribution)},
                 {"interval", e.fractionOf(cause.interval)},
                 {"where", {cause.worst_x, cause.worst_y}},
-                {"shows", cause.shows},
+                {"shows", cause.description},
                 {"alone", e.fractionOf(cause.alone)},
                 {"last", e.fractionOf(cause.last)},
                 {"dominates", cause.dominates},

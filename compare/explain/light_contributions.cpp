@@ -33,14 +33,15 @@ std::string titleOf(const Light& light) {
 }
 
 // Each light's fraction of the sum of all lights' differences, at each pixel.
-std::vector<std::vector<float>> partsOfDifference(const std::vector<Image>& a, const std::vector<Image>& b) {
+std::vector<std::vector<float>> fractionsOfDifference(const std::vector<Image>& a,
+                                                      const std::vector<Image>& b) {
     std::vector<std::vector<float>> parts(a.size(), std::vector<float>(a.front().pixels()));
     std::vector<double> sums(parts.front().size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const std::vector<double> apart = errorsOf(a[i], b[i]);
-        for (std::size_t p = 0; p < apart.size(); ++p) {
-            parts[i][p] = static_cast<float>(apart[p]);
-            sums[p] += apart[p];
+        const std::vector<double> errors = errorsOf(a[i], b[i]);
+        for (std::size_t p = 0; p < errors.size(); ++p) {
+            parts[i][p] = static_cast<float>(errors[p]);
+            sums[p] += errors[p];
         }
     }
     for (std::vector<float>& part : parts)
@@ -59,14 +60,14 @@ std::vector<std::size_t> lightsOf(std::string_view of, const std::vector<Light>&
         return suns ? is_sun : !locals || !is_sun;
     };
     const bool any_casts = std::ranges::any_of(casting, fits);
-    std::vector<std::size_t> places;
+    std::vector<std::size_t> indices;
     for (std::size_t index = 0; index < lights.size(); ++index)
         if (fits(index) && (!(suns || locals) || !any_casts || std::ranges::count(casting, index) > 0))
-            places.push_back(index);
-    std::ranges::stable_sort(places, std::ranges::greater(), [&](std::size_t index) {
+            indices.push_back(index);
+    std::ranges::stable_sort(indices, std::ranges::greater(), [&](std::size_t index) {
         return double{lights[index].intensity} * luminance(glm::dvec3(lights[index].color));
     });
-    return places;
+    return indices;
 }
 
 constexpr int blockSide = 8;
@@ -132,8 +133,9 @@ private:
         return sizes;
     }
 
-    // A light's part of the change as multiples of its term: one factor for the block (grey, or per
-    // colour), or one per pixel.
+    // For each pixel, the factor of the light's term that best explains the remaining change (least squares).
+    // LightChange::factor: the same at all pixels, for all colours or each; visibility: by pixel, -1 to 1;
+    // whole: 1 or -1 where that reduces the change, else 0.
     std::vector<glm::dvec3> factors(std::size_t light) const {
         glm::dvec3 along(0), size(0);
         std::vector<glm::dvec3> of(pixels_.size(), glm::dvec3(0));
@@ -142,7 +144,7 @@ private:
             along += left_[i] * term;
             size += term * term;
             const double s = glm::dot(term, term);
-            if (how_ == LightChange::seen && s > 0)
+            if (how_ == LightChange::visibility && s > 0)
                 of[i] = glm::dvec3(std::clamp(glm::dot(left_[i], term) / s, -1.0, 1.0));
         }
         if (how_ == LightChange::factor) {
@@ -206,18 +208,18 @@ std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<
         return {};
     const Settings &baseline = ablation.sides().settings(0), &test = ablation.sides().settings(1);
     const std::vector<Light> lights = ablation.lighting().under(test).lights();
-    std::vector<std::size_t> places =
+    std::vector<std::size_t> indices =
         lightsOf(cause.name, lights, std::max(baseline.shadow_lights, test.shadow_lights));
-    if (places.empty()) return {};
-    const std::size_t room = maxLightBytes / (2 * 3 * sizeof(float) * map.size()), all = places.size();
-    places.resize(std::min(all, std::clamp<std::size_t>(room, 1, maxLightsDrawn)));
-    found.lights_drawn = std::max(found.lights_drawn, places.size());
-    found.lights_left_out = std::max(found.lights_left_out, all - places.size());
+    if (indices.empty()) return {};
+    const std::size_t room = maxLightBytes / (2 * 3 * sizeof(float) * map.size()), all = indices.size();
+    indices.resize(std::min(all, std::clamp<std::size_t>(room, 1, maxLightsDrawn)));
+    found.lights_drawn = std::max(found.lights_drawn, indices.size());
+    found.lights_left_out = std::max(found.lights_left_out, all - indices.size());
     // Each light's own contribution under some Settings.
     const auto alone = [&](const Settings& settings) {
         ChannelShading& shading = ablation.lighting().under(settings);
         std::vector<Image> images;
-        for (const std::size_t index : places) {
+        for (const std::size_t index : indices) {
             const LightChannels adds = shading.light(allChannelsOf(1), index);
             images.push_back(component ? LightingComponents::directLight(*component, adds)
                                        : sumOfLobes(adds));
@@ -227,7 +229,7 @@ std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<
     std::vector<std::vector<float>> parts;
     Settings settings = test;
     if (component) {
-        if (*component->lights == LightChange::seen) settings.shadows = Shadows::off;
+        if (*component->lights == LightChange::visibility) settings.shadows = Shadows::off;
         parts = lightsOfChange(
             LightingComponents::directLight(*component, LightingComponents::change(*component)),
             alone(settings), *component->lights);
@@ -235,14 +237,14 @@ std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<
         settings.set(cause.name, baseline.valueOf(cause.name));
         const std::vector<Image> ablated = alone(settings);
         // Last, so that the next cause can use its frame.
-        parts = partsOfDifference(alone(test), ablated);
+        parts = fractionsOfDifference(alone(test), ablated);
     }
     std::vector<CausePart> contributions;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < indices.size(); ++i) {
         double sum = 0;
         for (std::size_t p = 0; p < map.size(); ++p) sum += map[p] * double{parts[i][p]};
         if (sum != 0)
-            contributions.push_back({static_cast<int>(places[i]), titleOf(lights[places[i]]),
+            contributions.push_back({static_cast<int>(indices[i]), titleOf(lights[indices[i]]),
                                      sum / static_cast<double>(map.size())});
     }
     return contributions;

@@ -105,23 +105,25 @@ TermImages takeDirectLight(TermImages& change, const Terms& value, const Image* 
     return taken;
 }
 
-enum class Place : std::uint8_t { background, blended, emitting, other };
+enum class ResidualSource : std::uint8_t { background, blended, emitting, other };
 
-// Where each component of a change beyond the sum of terms is. blended: our lighting of either side blends
-// surfaces there. emitting: it may come from adding emission differently, because it is at most a side's
-// emission, and so is 99 % of the change without blending. If other surfaces change too, emission is not the
-// cause.
-std::vector<Place> placesOf(const Image& change, const std::array<const Image*, 2>& ids,
-                            const std::array<LitSurfaces, 2>& own, const std::array<Terms, 2>& terms) {
+// The source of each component of a change beyond the sum of terms. blended: our lighting of either side
+// blends surfaces there. emitting: it may come from adding emission differently, because it is at most a
+// side's emission, and so is 99 % of the change without blending. If other surfaces change too, emission is
+// not the cause.
+std::vector<ResidualSource> residualSources(const Image& change, const std::array<const Image*, 2>& ids,
+                                            const std::array<LitSurfaces, 2>& own,
+                                            const std::array<Terms, 2>& terms) {
     constexpr float rounding = 1.001f;
-    std::vector<Place> places(change.data.size(), Place::other);
+    std::vector<ResidualSource> sources(change.data.size(), ResidualSource::other);
     for (const LitSurfaces& side : own)
-        for (std::size_t i = 0; i < places.size(); ++i)
+        for (std::size_t i = 0; i < sources.size(); ++i)
             if (side.lit.data[i] != side.unblended.data[i])
-                std::fill_n(places.begin() + static_cast<std::ptrdiff_t>(i - i % 3), 3, Place::blended);
+                std::fill_n(sources.begin() + static_cast<std::ptrdiff_t>(i - i % 3), 3,
+                            ResidualSource::blended);
     double all = 0, part = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (places[i] == Place::blended) continue;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        if (sources[i] == ResidualSource::blended) continue;
         float emitted = 0;
         for (std::size_t side = 0; side < 2; ++side)
             emitted = std::max(
@@ -131,12 +133,13 @@ std::vector<Place> placesOf(const Image& change, const std::array<const Image*, 
         all += double{size};
         if (emits) part += double{size};
         if (!(ids[0]->pixel(i / 3)[0] >= 0) && !(ids[1]->pixel(i / 3)[0] >= 0))
-            places[i] = Place::background;
+            sources[i] = ResidualSource::background;
         else if (emits)
-            places[i] = Place::emitting;
+            sources[i] = ResidualSource::emitting;
     }
-    if (!(part > 0) || part < 0.99 * all) std::ranges::replace(places, Place::emitting, Place::other);
-    return places;
+    if (!(part > 0) || part < 0.99 * all)
+        std::ranges::replace(sources, ResidualSource::emitting, ResidualSource::other);
+    return sources;
 }
 
 }  // namespace
@@ -174,24 +177,24 @@ LightingComponents::LightingComponents(const Frame& baseline, const Frame& test,
         change.at(t) = differenceOf(baselines.at(t), residual_.at(t));
     // Splits off direct light that changes with the visibility of lights, or where other lights are
     // evaluated.
-    const auto contribution = [&](std::string name, std::string shows, Channel mode, LightChange how,
+    const auto contribution = [&](std::string name, std::string description, Channel mode, LightChange how,
                                   const auto& part) {
-        add({std::move(name), std::move(shows),
+        add({std::move(name), std::move(description),
              takeDirectLight(change, terms[1], findChannel(baseline, mode), findChannel(test, mode), part),
              how});
     };
     contribution("shadow_visibility", "direct light that changes with the visibility of the sun",
-                 Channel::shadow_visibility, LightChange::seen, shadowPart);
+                 Channel::shadow_visibility, LightChange::visibility, shadowPart);
     contribution("local_visibility", "direct light that changes with the visibility of point and spot lights",
-                 Channel::local_visibility, LightChange::seen, shadowPart);
+                 Channel::local_visibility, LightChange::visibility, shadowPart);
     contribution("light_count", "direct light where the number of evaluated lights differs",
                  Channel::light_count, LightChange::whole,
                  [](float left, float, float a, float b) { return a != b ? left : 0.0f; });
-    const auto term = [&](std::string name, std::string shows, std::initializer_list<std::size_t> of,
+    const auto term = [&](std::string name, std::string description, std::initializer_list<std::size_t> of,
                           std::optional<LightChange> how = {}) {
         TermImages adds;
         for (const std::size_t t : of) adds.at(t) = std::move(change.at(t));
-        add({std::move(name), std::move(shows), std::move(adds), how});
+        add({std::move(name), std::move(description), std::move(adds), how});
     };
     term("direct diffuse", "direct light that the diffuse lobes reflect or transmit", {diffuseTerm},
          LightChange::factor);
@@ -200,21 +203,21 @@ LightingComponents::LightingComponents(const Frame& baseline, const Frame& test,
     term("ambient light", "ambient and environment light, reflected or transmitted", {ambientTerm});
     term("haze in the air", "transmittance and scattered light of the haze", {hazeTerm, transmittanceTerm});
     const Image beyond = std::move(change.at(wholeTerm));
-    const std::vector<Place> places =
-        placesOf(beyond, {&channelOf(baseline, Channel::material_id), &channelOf(test, Channel::material_id)},
-                 own, terms);
-    const auto whole = [&](Place place, std::string name, std::string shows) {
+    const std::vector<ResidualSource> sources = residualSources(
+        beyond, {&channelOf(baseline, Channel::material_id), &channelOf(test, Channel::material_id)}, own,
+        terms);
+    const auto whole = [&](ResidualSource source, std::string name, std::string description) {
         Image& part = change.at(wholeTerm) = Image(beyond.width, beyond.height, 3);
-        for (std::size_t i = 0; i < places.size(); ++i)
-            if (places[i] == place) part.data[i] = beyond.data[i];
-        term(std::move(name), std::move(shows), {wholeTerm});
+        for (std::size_t i = 0; i < sources.size(); ++i)
+            if (sources[i] == source) part.data[i] = beyond.data[i];
+        term(std::move(name), std::move(description), {wholeTerm});
     };
-    whole(Place::background, "background", "pixels without a surface and without blending");
-    whole(Place::blended, "transparency",
+    whole(ResidualSource::background, "background", "pixels without a surface and without blending");
+    whole(ResidualSource::blended, "transparency",
           "fragments blended over surfaces and background, and transmission through surfaces");
-    whole(Place::emitting, "sum with emission",
+    whole(ResidualSource::emitting, "sum with emission",
           "difference between lit and the sum of its terms, only where surfaces emit");
-    whole(Place::other, "sum of terms",
+    whole(ResidualSource::other, "sum of terms",
           "difference between lit and the sum of its terms: another order or an unknown term");
 }
 

@@ -15,9 +15,9 @@
 
 namespace diptych {
 
-// How a light may have changed. factor: its intensity is scaled; whole: it exists in one image only; seen:
-// its visibility changes, at each pixel independently.
-enum class LightChange { factor, whole, seen };
+// How a light may have changed. factor: its intensity is scaled; whole: it exists in one image only;
+// visibility: what hides it changes, at each pixel independently.
+enum class LightChange { factor, whole, visibility };
 
 // Channels that both Frames must have: lit_diffuse, lit_specular, lit_ambient, lit_haze and transmittance.
 std::vector<Channel> termChannels();
@@ -50,7 +50,7 @@ public:
                        const std::array<LitSurfaces, 2>& own);
 
     struct Component {
-        std::string name, shows;  // "direct diffuse"
+        std::string name, description;  // "direct diffuse"
         // Change of each term, and of lit, when taken from the baseline: W x H x 3; empty: none.
         TermImages adds;
         std::optional<LightChange> lights{};  // for direct light: how lights may have changed

@@ -202,12 +202,12 @@ private:
     PixelTerm& add(PixelTerm::Kind kind, const Values& values, double uncertainty = 0) {
         PixelTerm& term = breakdown_.terms.emplace_back(
             PixelTerm{.kind = kind, .values = values, .uncertainty = uncertainty});
-        const double apart = largest(values[1] - values[0]);
-        if (apart > 0) term.difference = apart / std::max(largest(values[0]), lit_floor_);
+        const double difference = largest(values[1] - values[0]);
+        if (difference > 0) term.difference = difference / std::max(largest(values[0]), lit_floor_);
         const bool evaluated = kind != PixelTerm::Kind::sum && kind != PixelTerm::Kind::residual;
         const double rounding =
             pair_.cpu ? 0 : gpuUlps * 0x1p-23 * std::max(largest(values[0]), largest(values[1]));
-        term.differs = evaluated && !(apart <= rounding);
+        term.differs = evaluated && !(difference <= rounding);
         return term;
     }
 

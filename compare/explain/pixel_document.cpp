@@ -28,9 +28,10 @@ Numbers numbersOf(const glm::dvec3& value) {
 class Digits {
 public:
     explicit Digits(std::span<const Numbers> values) {
-        const auto told = [&](double a, double b) { return a == b || one(a) != one(b); };
+        const auto isDistinct = [&](double a, double b) { return a == b || one(a) != one(b); };
         while (digits_ < 9 && !std::ranges::all_of(values, [&](Numbers other) {
-                   return values[0].size() != other.size() || std::ranges::equal(values[0], other, told);
+                   return values[0].size() != other.size() ||
+                          std::ranges::equal(values[0], other, isDistinct);
                }))
             ++digits_;
     }
@@ -108,22 +109,22 @@ std::string titleOf(const PixelBreakdown& breakdown, const PixelTerm& term) {
 }
 
 std::string notesOn(const PixelBreakdown& breakdown, const PixelTerm& term) {
-    std::vector<std::string> words;
+    std::vector<std::string> items;
     if (term.kind == PixelTerm::Kind::light) {
         const PixelLightProperties& properties = breakdown.lights.at(term.lights.front());
         if (std::isfinite(properties.distance))
-            words.push_back(fmt::format(
+            items.push_back(fmt::format(
                 "{:.4g} m away{}", properties.distance,
                 std::isfinite(properties.range) ? fmt::format(" (range {:.4g} m)", properties.range) : ""));
-        if (properties.casts) words.emplace_back("casts a shadow");
+        if (properties.casts) items.emplace_back("casts a shadow");
         for (std::size_t side = 0; side < 2; ++side)
             if (const auto& list = breakdown.lists.at(side);
                 list && !std::ranges::binary_search(*list, term.lights.front()))
-                words.push_back("not in the list of " + breakdown.names.at(side));
+                items.push_back("not in the list of " + breakdown.names.at(side));
     }
     if (term.uncertainty > 0)
-        words.push_back(fmt::format("uncertainty of the reference {:.2g}", term.uncertainty));
-    return fmt::format("{}", fmt::join(words, ", "));
+        items.push_back(fmt::format("uncertainty of the reference {:.2g}", term.uncertainty));
+    return fmt::format("{}", fmt::join(items, ", "));
 }
 
 output::Row termRow(const PixelBreakdown& breakdown, const PixelTerm& term) {
@@ -269,14 +270,15 @@ std::vector<output::Block> blocksOf(const PixelBreakdown& breakdown) {
                               breakdown.y, size.width, size.height, breakdown.names[1], breakdown.names[0])},
         Paragraph{surfaceOf(breakdown)}, steps};
     if (breakdown.shown) addTerms(blocks, breakdown);
-    const auto say = [&](const std::string& words) { blocks.emplace_back(Paragraph{words}); };
-    say(firstDifference(breakdown));
+    const auto addParagraph = [&](const std::string& text) { blocks.emplace_back(Paragraph{text}); };
+    addParagraph(firstDifference(breakdown));
     if (const auto differing = namesOf(breakdown, &PixelStep::differs); differing.size() > 1)
-        say(fmt::format("{} channels differ: {}", differing.size(), fmt::join(differing, ", ")));
+        addParagraph(fmt::format("{} channels differ: {}", differing.size(), fmt::join(differing, ", ")));
     const auto beyond = namesOf(breakdown, &PixelStep::beyond);
-    say(beyond.empty() ? fmt::format("pass: at this pixel all {} shared channels are within tolerance",
-                                     std::ranges::count_if(breakdown.steps, &PixelStep::isCompared))
-                       : fmt::format("FAIL: at this pixel beyond tolerance: {}", fmt::join(beyond, ", ")));
+    addParagraph(beyond.empty()
+                     ? fmt::format("pass: at this pixel all {} shared channels are within tolerance",
+                                   std::ranges::count_if(breakdown.steps, &PixelStep::isCompared))
+                     : fmt::format("FAIL: at this pixel beyond tolerance: {}", fmt::join(beyond, ", ")));
     return blocks;
 }
 

@@ -74,16 +74,17 @@ private:
                                     [&](const Image& ours) { return distance(ours); }};
         for (const Convention& each : nearestConventions(said_, trial)) {
             said_ = withConventions(said_, {each});
-            found_.push_back({each.option, said_, std::string(each.shows)});
+            found_.push_back({each.option, said_, std::string(each.description)});
         }
         beyond_[1] = beyond(comparable(said_, 1), 1);
     }
 
     std::vector<UndeclaredSetting> triedSettings() {
         std::vector<UndeclaredSetting> all;
-        const auto tryIt = [&](std::string_view option, std::string shows, bool guessed, const auto& change) {
+        const auto tryIt = [&](std::string_view option, std::string description, bool guessed,
+                               const auto& change) {
             if (std::ranges::count(found_, option, &UndeclaredSetting::option) > 0) return;
-            all.push_back({option, said_, std::move(shows), guessed});
+            all.push_back({option, said_, std::move(description), guessed});
             change(all.back().settings);
         };
         const bool lit_around = said_.env != Settings().env && said_.ibl_intensity > 0;

@@ -17,7 +17,7 @@ namespace diptych {
 struct UndeclaredSetting {
     std::string_view option;
     Settings settings;  // the test's with this one and all accepted before it
-    std::string shows;
+    std::string description;
     bool guessed = false;  // an estimated multiple that no term confirms
 };
 

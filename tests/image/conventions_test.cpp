@@ -179,8 +179,8 @@ TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
         }
         ASSERT_FALSE(found.causes.empty());
         EXPECT_EQ(found.causes[0].name, "normals");
-        EXPECT_NE(found.causes[0].shows.find("--skin-normals blended"), std::string::npos)
-            << found.causes[0].shows;
+        EXPECT_NE(found.causes[0].description.find("--skin-normals blended"), std::string::npos)
+            << found.causes[0].description;
         EXPECT_LE(found.unexplained, 0.01 * found.distance);
     }
 }

@@ -25,7 +25,7 @@ Explanation made(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         Cause cause;
         cause.name = i == 0 ? "--haze" : "cause " + std::to_string(i);
-        cause.shows = "on instead of <off> & so";
+        cause.description = "on instead of <off> & so";
         cause.contribution = 1.0 / static_cast<double>(count);
         cause.map = Image(3, 2, 1);
         cause.materials = {{-1, "", cause.contribution}};

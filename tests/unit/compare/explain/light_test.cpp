@@ -72,7 +72,7 @@ TEST(LightsOfChange, ALightThatIsDroppedIsTheOneThatIsMissing) {
 TEST(LightsOfChange, AShadowIsOfTheLightWhoseColourItHas) {
     const std::vector<Image> lights = threeLights();
     const Image change = times(lights[2], [](int p) { return 0.5 + 0.5 * std::sin(p); });
-    EXPECT_GT(fractionOf(lightsOfChange(change, lights, LightChange::seen), 2, change), 0.999);
+    EXPECT_GT(fractionOf(lightsOfChange(change, lights, LightChange::visibility), 2, change), 0.999);
 }
 
 // Lights of one colour with partial visibility everywhere: either could have caused the change.
@@ -80,7 +80,7 @@ TEST(LightsOfChange, LightsThatCannotBeToldApartShare) {
     const std::vector<Image> lights{times(threeLights()[0], [](int) { return 1; }),
                                     times(threeLights()[0], [](int) { return 2; })};
     const Image change = times(lights[0], [](int p) { return 0.5 + 0.5 * std::sin(p); });
-    const auto parts = lightsOfChange(change, lights, LightChange::seen);
+    const auto parts = lightsOfChange(change, lights, LightChange::visibility);
     EXPECT_NEAR(fractionOf(parts, 0, change), 1.0 / 3, 1e-5);
     EXPECT_NEAR(fractionOf(parts, 1, change), 2.0 / 3, 1e-5);
 }
@@ -100,7 +100,7 @@ TEST(LightsOfChange, PartsAddUpToOneOrNothing) {
     const std::vector<Image> lights = threeLights();
     Image change = times(lights[0], [](int) { return 0.4; });
     for (std::size_t i = 0; i < change.data.size(); ++i) change.data[i] -= 0.2f * lights[1].data[i];
-    for (const LightChange how : {LightChange::factor, LightChange::whole, LightChange::seen}) {
+    for (const LightChange how : {LightChange::factor, LightChange::whole, LightChange::visibility}) {
         const auto parts = lightsOfChange(change, lights, how);
         for (std::size_t p = 0; p < change.pixels(); ++p) {
             const double sum = double{parts[0][p]} + parts[1][p] + parts[2][p];
