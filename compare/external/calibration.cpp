@@ -77,7 +77,7 @@ public:
     }
 
     std::vector<Deviation> find() {
-        if (!findPlaces()) return std::move(found_);
+        if (!checkPlacement()) return std::move(found_);
         findResponse();
         findTextures();
         findLamps();
@@ -109,7 +109,7 @@ private:
     std::optional<glm::dvec3> written(Lamp lamp, const std::string& chart) const {
         const LampFrame& shown = *images_.at(lamp);
         if (shown.image.empty()) return {};
-        return shownBy(shown.truth.ids, idOf(chart), shown.image, placement_);
+        return medianColor(shown.truth.ids, idOf(chart), shown.image, placement_);
     }
     std::optional<glm::dvec3> radiance(Lamp lamp, const std::string& chart) const {
         const std::optional<glm::dvec3> value = written(lamp, chart);
@@ -117,10 +117,10 @@ private:
     }
     glm::dvec3 expected(Lamp lamp, const std::string& chart) const {
         const ChartReference& truth = images_.at(lamp)->truth;
-        return shownBy(truth.ids, idOf(chart), truth.lit, Placement()).value_or(glm::dvec3(0));
+        return medianColor(truth.ids, idOf(chart), truth.lit, Placement()).value_or(glm::dvec3(0));
     }
 
-    bool findPlaces() {
+    bool checkPlacement() {
         const LampFrame& shown = *images_.at(Lamp::none);
         std::vector<int> marks;
         for (const auto& [id, number] : chartsCalled("mark ")) marks.push_back(id);
@@ -134,9 +134,9 @@ private:
         placement_ = *found;
         if (found->upside_down) say("upside_down", "the picture is upside down", {{"upside_down", true}});
         if (found->mirrored) say("mirrored", "the picture is mirrored, left for right", {{"mirrored", true}});
-        const double told_fov = charts_.cameras.front().yfov;
-        const double fov = 2 * std::atan(std::tan(told_fov / 2) / found->scale.y);
-        const double offset = glm::degrees(fov - told_fov);
+        const double expected_fov = charts_.cameras.front().yfov;
+        const double fov = 2 * std::atan(std::tan(expected_fov / 2) / found->scale.y);
+        const double offset = glm::degrees(fov - expected_fov);
         if (std::abs(offset) > named_fov)
             say("fov",
                 fmt::format("the field of view is {:.2f} degrees {} than requested", std::abs(offset),
@@ -147,8 +147,8 @@ private:
             say("aspect", fmt::format("pixels are {:.3g} times as wide as high", aspect));
         if (std::abs(found->shift.x) > named_shift || std::abs(found->shift.y) > named_shift) {
             // Corrections apply to the projection, so a flip of the image reverses the shift.
-            const auto correction = [](double shift, bool turned) {
-                return std::round(-100 * (turned ? -shift : shift)) / 100;
+            const auto correction = [](double shift, bool flipped) {
+                return std::round(-100 * (flipped ? -shift : shift)) / 100;
             };
             Correction by = Correction::object();
             if (std::abs(found->shift.x) > named_shift)
@@ -167,7 +167,7 @@ private:
         std::vector<RampStep> ramp;
         for (const auto& [id, value] : chartsCalled("ramp ")) {
             const LampFrame& shown = *images_.at(Lamp::none);
-            if (const auto here = shownBy(shown.truth.ids, id, shown.image, placement_))
+            if (const auto here = medianColor(shown.truth.ids, id, shown.image, placement_))
                 ramp.push_back({value, luminous(*here)});
         }
         response_.emplace(std::move(ramp));
@@ -276,26 +276,26 @@ private:
     void findSky() {
         constexpr Lamp lamp = Lamp::environment;
         std::vector<TiltedFace> faces;
-        double told_all = 0, shown_all = 0;
+        double expected_all = 0, actual_all = 0;
         for (const std::string name : {"front", "left", "right", "up", "down"}) {
             const auto shown = radiance(lamp, name);
             if (!shown) continue;
             faces.push_back({normalOf(name), *shown});
-            told_all += luminous(lightFrom(charts_.environment->radiance, normalOf(name), false));
-            shown_all += luminous(*shown);
+            expected_all += luminous(lightFrom(charts_.environment->radiance, normalOf(name), false));
+            actual_all += luminous(*shown);
         }
         const LampFrame& shown = *images_.at(lamp);
-        if (faces.empty() || shown_all < named_dark * told_all)
+        if (faces.empty() || actual_all < named_dark * expected_all)
             return say("no_environment", fmt::format("the environment gives no light{}",
                                                      shown.problem.empty() ? "" : ": " + shown.problem));
-        const SkyMeaning sky = skyMeaning(charts_.environment->radiance, faces);
+        const SkyInterpretation sky = skyInterpretation(charts_.environment->radiance, faces);
         if (sky.mirrored)
             say("environment_mirrored", "the environment is mirrored, left for right",
                 {{"environment_mirrored", true}});
-        if (sky.turned != 0)
+        if (sky.rotation != 0)
             say("environment_rotation",
-                fmt::format("the environment is rotated by {:g} degrees more than requested", sky.turned),
-                {{"environment_rotation", -sky.turned}});
+                fmt::format("the environment is rotated by {:g} degrees more than requested", sky.rotation),
+                {{"environment_rotation", -sky.rotation}});
         if (sky.cut_off) say("ldr_environment", "the environment's radiance is clipped at 1");
         sayFactor("environment", "environments", sky.factor);
     }

@@ -35,16 +35,16 @@ using Clock = std::chrono::steady_clock;
 // Owns a file descriptor.
 class Descriptor {
 public:
-    explicit Descriptor(int number = -1) : number_(number) {}
+    explicit Descriptor(int fd = -1) : fd_(fd) {}
     ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
+        if (fd_ >= 0) ::close(fd_);
     }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
-    int number() const { return number_; }
+    int fd() const { return fd_; }
 
 private:
-    const int number_;
+    const int fd_;
 };
 
 void check(int error, const char* what) {
@@ -61,8 +61,9 @@ public:
         for (char** variable = environ; *variable; ++variable)
             if (!std::string_view(*variable).starts_with("PWD=")) variables_.push_back(*variable);
         variables_.push_back(nullptr);
-        for (const std::string& word : arguments) words_.push_back(const_cast<char*>(word.c_str()));
-        words_.push_back(nullptr);
+        for (const std::string& argument : arguments)
+            arguments_.push_back(const_cast<char*>(argument.c_str()));
+        arguments_.push_back(nullptr);
         check(posix_spawn_file_actions_init(&actions_), "posix_spawn");
         check(posix_spawnattr_init(&attributes_), "posix_spawn");
         check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()), "posix_spawn");
@@ -89,13 +90,13 @@ public:
 
     // Returns 0 or an errno.
     int start(pid_t& process) const {
-        return posix_spawnp(&process, words_.front(), &actions_, &attributes_, words_.data(),
+        return posix_spawnp(&process, arguments_.front(), &actions_, &attributes_, arguments_.data(),
                             variables_.data());
     }
 
 private:
     std::string pwd_;  // PWD must agree with the working directory
-    std::vector<char*> variables_, words_;
+    std::vector<char*> variables_, arguments_;
     posix_spawn_file_actions_t actions_{};
     posix_spawnattr_t attributes_{};
 };
@@ -135,7 +136,7 @@ std::size_t addToEnd(std::string& text, std::string_view more) {
 bool readInto(Ended& ended, const Pipe& pipe, bool error) {
     char bytes[4096];
     for (;;) {
-        const ssize_t count = ::read(pipe.output->number(), bytes, sizeof bytes);
+        const ssize_t count = ::read(pipe.output->fd(), bytes, sizeof bytes);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return errno == EAGAIN;
         if (count == 0) return false;
@@ -232,7 +233,7 @@ void keepOnly(int& lifeline, int& report) {
 bool waitFor(int supervisor, const Pipe& output, const Pipe& error, double seconds, Ended& ended) {
     const auto last = Clock::now() + std::chrono::duration<double>(seconds);
     pollfd watched[3] = {
-        {supervisor, POLLIN, 0}, {output.output->number(), POLLIN, 0}, {error.output->number(), POLLIN, 0}};
+        {supervisor, POLLIN, 0}, {output.output->fd(), POLLIN, 0}, {error.output->fd(), POLLIN, 0}};
     for (;;) {
         const double left = std::chrono::duration<double, std::milli>(last - Clock::now()).count();
         if (left <= 0) return false;
@@ -251,29 +252,29 @@ Ended runProgram(const std::vector<std::string>& arguments, const std::filesyste
                  double seconds) {
     Pipe output, error, report;
     Lifeline lifeline;
-    const SpawnPlan plan(arguments, folder, output.input->number(), error.input->number());
+    const SpawnPlan plan(arguments, folder, output.input->fd(), error.input->fd());
     const auto start = Clock::now();
     Ended ended;
     const pid_t supervisor = ::fork();
     check(supervisor >= 0 ? 0 : errno, "fork");
     if (supervisor == 0) {
         lifeline.ours.reset();  // this copy would keep the lifeline open
-        supervise(plan, lifeline.supervisors->number(), report.input->number());
+        supervise(plan, lifeline.supervisors->fd(), report.input->fd());
     }
     for (Pipe* written : {&output, &error, &report}) written->input.reset();
     lifeline.supervisors.reset();
     {
-        const EndedWhenInterrupted watched(lifeline.ours->number(), supervisor);
+        const EndedWhenInterrupted watched(lifeline.ours->fd(), supervisor);
         const Descriptor handle(handleOf(supervisor));
-        const int failed = handle.number() >= 0 ? 0 : errno;
-        ended.timed_out = failed == 0 && !waitFor(handle.number(), output, error, seconds, ended);
-        if (ended.timed_out || failed != 0) endSupervised(lifeline.ours->number(), supervisor);
+        const int failed = handle.fd() >= 0 ? 0 : errno;
+        ended.timed_out = failed == 0 && !waitFor(handle.fd(), output, error, seconds, ended);
+        if (ended.timed_out || failed != 0) endSupervised(lifeline.ours->fd(), supervisor);
         while (::waitpid(supervisor, nullptr, 0) < 0 && errno == EINTR) {
         }
         check(failed, "pidfd_open");
     }
     Outcome outcome{0, SIGKILL};  // if the supervisor was killed
-    const ssize_t count = ::read(report.output->number(), &outcome, sizeof outcome);
+    const ssize_t count = ::read(report.output->fd(), &outcome, sizeof outcome);
     if (count == sizeof outcome && outcome.failed != 0)
         throw std::runtime_error(fmt::format("{}: cannot be started in {}: {}", oneLine(arguments.front()),
                                              oneLine(folder.string()), std::strerror(outcome.failed)));

@@ -70,7 +70,7 @@ void convert(Image& image, const Rows& rows) {
     }
 }
 
-void turnRound(Image& image, bool rows, bool columns) {
+void mirror(Image& image, bool rows, bool columns) {
     const Image from = image;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
@@ -83,7 +83,7 @@ void turnRound(Image& image, bool rows, bool columns) {
 void correctFrame(Frame& frame, const InputCorrections& corrections) {
     for (auto& [mode, image] : frame.channels) {
         if (corrections.upside_down || corrections.mirrored)
-            turnRound(image, corrections.upside_down, corrections.mirrored);
+            mirror(image, corrections.upside_down, corrections.mirrored);
         // Transfer curve and primaries apply to radiance only.
         if (mode != Channel::lit) continue;
         if (corrections.transfer == Transfer::srgb)

@@ -63,9 +63,9 @@ glm::dmat4 clipFromView(const View& view, const InputCorrections& corrections) {
 }
 
 glm::dmat4 viewFromWorld(const View& view) {
-    const glm::dmat3 turned = glm::transpose(glm::dmat3(view.right(), view.up(), view.backward()));
-    glm::dmat4 matrix(turned);
-    matrix[3] = glm::dvec4(-(turned * view.eye()), 1);
+    const glm::dmat3 rotation = glm::transpose(glm::dmat3(view.right(), view.up(), view.backward()));
+    glm::dmat4 matrix(rotation);
+    matrix[3] = glm::dvec4(-(rotation * view.eye()), 1);
     return matrix;
 }
 
@@ -107,12 +107,12 @@ Json lightsJson(const std::vector<Light>& lights) {
 }
 
 Image fromRightToLeft(const Image& image) {
-    Image turned = image;
+    Image mirrored = image;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < image.components; ++c)
-                turned.at(x, y, c) = image.at(image.width - 1 - x, y, c);
-    return turned;
+                mirrored.at(x, y, c) = image.at(image.width - 1 - x, y, c);
+    return mirrored;
 }
 
 // Whether the scene is all that its file selects: no built-in scene, and neither another scene (?scene=) nor

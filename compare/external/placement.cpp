@@ -14,7 +14,7 @@ namespace {
 
 // A mark: centroid, pixels from the image's centre, and area, pixels.
 struct Mark {
-    glm::dvec2 place{0};
+    glm::dvec2 position{0};
     double area = 0;
 };
 
@@ -27,11 +27,11 @@ std::optional<Mark> markOf(const Image& ids, int material) {
     for (int y = 0; y < ids.height; ++y)
         for (int x = 0; x < ids.width; ++x)
             if (ids.at(x, y) == static_cast<float>(material)) {
-                mark.place += fromMiddle(ids, x, y);
+                mark.position += fromMiddle(ids, x, y);
                 ++mark.area;
             }
     if (mark.area == 0) return {};
-    mark.place /= mark.area;
+    mark.position /= mark.area;
     return mark;
 }
 
@@ -45,8 +45,8 @@ double brightness(const Image& image, int x, int y) {
 }
 
 // Pixels around `place` with more than half of the maximum, which also works under a tone curve.
-std::optional<Mark> shownAround(const Image& image, const glm::dvec2& place, double reach) {
-    const glm::dvec2 corner = place + glm::dvec2(image.width, image.height) / 2.0;
+std::optional<Mark> findMark(const Image& image, const glm::dvec2& position, double reach) {
+    const glm::dvec2 corner = position + glm::dvec2(image.width, image.height) / 2.0;
     const int left = std::max(0, static_cast<int>(corner.x - reach)),
               right = std::min(image.width, static_cast<int>(corner.x + reach) + 1),
               top = std::max(0, static_cast<int>(corner.y - reach)),
@@ -59,10 +59,10 @@ std::optional<Mark> shownAround(const Image& image, const glm::dvec2& place, dou
     for (int y = top; y < bottom; ++y)
         for (int x = left; x < right; ++x)
             if (brightness(image, x, y) > 0.5 * max) {
-                mark.place += fromMiddle(image, x, y);
+                mark.position += fromMiddle(image, x, y);
                 ++mark.area;
             }
-    mark.place /= mark.area;
+    mark.position /= mark.area;
     return mark;
 }
 
@@ -88,31 +88,32 @@ Line lineThrough(const std::vector<double>& a, const std::vector<double>& b) {
 // Refines `guess` from at least `least` marks. Empty if a mark that must be visible is not found.
 std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& image, const Placement& guess) {
     constexpr std::size_t min = 4;
-    std::vector<double> told_x, told_y, shown_x, shown_y;
+    std::vector<double> expected_x, expected_y, actual_x, actual_y;
     for (const Mark& mark : marks) {
         const double radius = 1.3 * std::sqrt(mark.area / glm::pi<double>()) * guess.scale.x;
         const double reach = radius + 5;
-        const glm::dvec2 place = guess(mark.place);
-        if (std::abs(place.x) + reach > image.width / 2.0 || std::abs(place.y) + reach > image.height / 2.0)
+        const glm::dvec2 position = guess(mark.position);
+        if (std::abs(position.x) + reach > image.width / 2.0 ||
+            std::abs(position.y) + reach > image.height / 2.0)
             continue;  // may be clipped
-        const std::optional<Mark> shown = shownAround(image, place, reach);
+        const std::optional<Mark> actual = findMark(image, position, reach);
         const double area = mark.area * guess.scale.x * guess.scale.y;
-        if (!shown || shown->area < 0.6 * area || shown->area > 1.6 * area) return {};
-        told_x.push_back(guess.mirrored ? -mark.place.x : mark.place.x);
-        told_y.push_back(guess.upside_down ? -mark.place.y : mark.place.y);
-        shown_x.push_back(shown->place.x);
-        shown_y.push_back(shown->place.y);
+        if (!actual || actual->area < 0.6 * area || actual->area > 1.6 * area) return {};
+        expected_x.push_back(guess.mirrored ? -mark.position.x : mark.position.x);
+        expected_y.push_back(guess.upside_down ? -mark.position.y : mark.position.y);
+        actual_x.push_back(actual->position.x);
+        actual_y.push_back(actual->position.y);
     }
-    if (told_x.size() < min) return {};
-    const Line x = lineThrough(told_x, shown_x), y = lineThrough(told_y, shown_y);
+    if (expected_x.size() < min) return {};
+    const Line x = lineThrough(expected_x, actual_x), y = lineThrough(expected_y, actual_y);
     Placement found = guess;
     found.scale = {x.slope, y.slope};
     found.shift = {x.offset, y.offset};
     double squares = 0;
-    for (std::size_t i = 0; i < told_x.size(); ++i)
-        squares += std::pow(x.slope * told_x[i] + x.offset - shown_x[i], 2) +
-                   std::pow(y.slope * told_y[i] + y.offset - shown_y[i], 2);
-    found.residual = std::sqrt(squares / static_cast<double>(told_x.size()));
+    for (std::size_t i = 0; i < expected_x.size(); ++i)
+        squares += std::pow(x.slope * expected_x[i] + x.offset - actual_x[i], 2) +
+                   std::pow(y.slope * expected_y[i] + y.offset - actual_y[i], 2);
+    found.residual = std::sqrt(squares / static_cast<double>(expected_x.size()));
     return found;
 }
 
@@ -138,8 +139,8 @@ std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>&
     return best && best->residual < max ? best : std::nullopt;
 }
 
-std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& image,
-                                  const Placement& placement) {
+std::optional<glm::dvec3> medianColor(const Image& ids, int material, const Image& image,
+                                      const Placement& placement) {
     constexpr int edge = 3;  // pixels that a filter may mix with neighbours
     std::vector<double> values[3];
     const auto isInside = [&](int x, int y) {

@@ -32,7 +32,7 @@ std::optional<Placement> findPlacement(const Image& ids, const std::vector<int>&
 
 // Per-component median over a material's pixels in the image, away from its edges. Empty if none are
 // visible.
-std::optional<glm::dvec3> shownBy(const Image& ids, int material, const Image& image,
-                                  const Placement& placement);
+std::optional<glm::dvec3> medianColor(const Image& ids, int material, const Image& image,
+                                      const Placement& placement);
 
 }  // namespace diptych::external

@@ -98,34 +98,34 @@ InputCorrections correctionsIn(const nlohmann::json& object, const std::string& 
 
 std::vector<std::string> commandIn(const JsonFields& fields) {
     const nlohmann::json* command = fields.find("command");
-    std::vector<std::string> words;
+    std::vector<std::string> arguments;
     bool sound = command && command->is_array() && !command->empty();
     for (std::size_t i = 0; sound && i < command->size(); ++i) {
         sound = command->at(i).is_string();
-        if (sound) words.push_back(command->at(i).get<std::string>());
-        sound = sound && words.back().find('\0') == std::string::npos;
+        if (sound) arguments.push_back(command->at(i).get<std::string>());
+        sound = sound && arguments.back().find('\0') == std::string::npos;
     }
-    if (!sound || words.front().empty())
+    if (!sound || arguments.front().empty())
         fields.fail(
             "command",
             "must be the program and its arguments, e.g. [\"node\", \"three.mjs\"]; no shell is used");
-    return words;
+    return arguments;
 }
 
-void checkName(const std::string& name, const std::string& words) {
+void checkName(const std::string& name, const std::string& argument) {
     const auto fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
                c == '_' || c == '.';
     };
     if (name.empty() || name.size() > 64 || name.front() == '.' || !std::ranges::all_of(name, fits))
-        fail("--renderer " + oneLine(words),
+        fail("--renderer " + oneLine(argument),
              "its name may have up to 64 letters, digits, \"-\", \"_\" and dots, e.g. three=three.json");
     for (const auto& [path, taken] : enumNames<Path>())
         if (name == taken)
-            fail("--renderer " + oneLine(words),
+            fail("--renderer " + oneLine(argument),
                  fmt::format("{} is the name of a path of diptych; choose another", name));
     if (name == "baseline")
-        fail("--renderer " + oneLine(words),
+        fail("--renderer " + oneLine(argument),
              "this name is reserved for the file of --baseline; choose another");
 }
 
@@ -189,13 +189,13 @@ ExternalRenderer readRendererFile(const std::filesystem::path& file) {
     });
 }
 
-ExternalRenderer readRenderer(const std::string& words) {
-    const std::size_t at = words.find('=');
-    if (at == std::string::npos || at + 1 == words.size())
-        fail("--renderer " + oneLine(words), "give NAME=FILE.json, e.g. three=three.json");
-    const std::string name = words.substr(0, at);
-    checkName(name, words);
-    ExternalRenderer renderer = readRendererFile(words.substr(at + 1));
+ExternalRenderer readRenderer(const std::string& argument) {
+    const std::size_t at = argument.find('=');
+    if (at == std::string::npos || at + 1 == argument.size())
+        fail("--renderer " + oneLine(argument), "give NAME=FILE.json, e.g. three=three.json");
+    const std::string name = argument.substr(0, at);
+    checkName(name, argument);
+    ExternalRenderer renderer = readRendererFile(argument.substr(at + 1));
     renderer.name = name;
     return renderer;
 }

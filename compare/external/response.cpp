@@ -39,43 +39,43 @@ double distance(const glm::dmat3& a, const glm::dmat3& b) {
 Response::Response(std::vector<RampStep> ramp) {
     // Skips steps that are written as 0 or like their predecessor.
     for (const RampStep& step : ramp)
-        if (step.shown > 1e-9 && (ramp_.empty() || step.shown > 1.02 * ramp_.back().shown))
+        if (step.actual > 1e-9 && (ramp_.empty() || step.actual > 1.02 * ramp_.back().actual))
             ramp_.push_back(step);
     if (ramp_.size() < 2) return;
-    if (ramp.back().shown <= 1.02 * ramp_.back().shown && ramp_.back().expected < ramp.back().expected)
+    if (ramp.back().actual <= 1.02 * ramp_.back().actual && ramp_.back().expected < ramp.back().expected)
         cut_off_ = ramp_.back().expected;
     // The step at the limit is clipped already.
     const std::span<const RampStep> sound(ramp_.data(), ramp_.size() - (cut_off_ ? 1 : 0));
     const auto fits = [&](const auto& decoded, std::size_t max_steps) {
         std::vector<double> logs;
         for (const RampStep& step : sound.first(std::min(max_steps, sound.size())))
-            logs.push_back(std::log(decoded(step.shown) / step.expected));
+            logs.push_back(std::log(decoded(step.actual) / step.expected));
         const double middle = medianOf(logs);
         if (!std::ranges::all_of(logs, [&](double log) { return std::abs(log - middle) < max_off; }))
             return false;
         exposure_ = std::exp(middle);
         return true;
     };
-    if (fits([](double shown) { return shown; }, sound.size())) {
+    if (fits([](double actual) { return actual; }, sound.size())) {
         kind_ = CurveKind::linear;
     } else {
         // sRGB is undefined above 1: renderers extrapolate or clip.
         std::size_t below = 0;
-        while (below < sound.size() && sound[below].shown <= 1.001) ++below;
+        while (below < sound.size() && sound[below].actual <= 1.001) ++below;
         if (below >= 4 && fits(linearFromSrgb, below)) kind_ = CurveKind::srgb;
     }
-    if (kind_ == CurveKind::linear && cut_off_) cut_off_ = ramp_.back().shown / exposure_;
+    if (kind_ == CurveKind::linear && cut_off_) cut_off_ = ramp_.back().actual / exposure_;
 }
 
-double Response::straight(double shown) const {
-    if (!(shown > 0) || ramp_.size() < 2) return 0;
-    if (kind_ == CurveKind::linear) return shown / exposure_;
-    if (kind_ == CurveKind::srgb) return linearFromSrgb(shown) / exposure_;
+double Response::straight(double actual) const {
+    if (!(actual > 0) || ramp_.size() < 2) return 0;
+    if (kind_ == CurveKind::linear) return actual / exposure_;
+    if (kind_ == CurveKind::srgb) return linearFromSrgb(actual) / exposure_;
     // Power-law interpolation between steps, and extrapolation beyond them.
-    auto next = std::ranges::lower_bound(ramp_, shown, {}, &RampStep::shown);
+    auto next = std::ranges::lower_bound(ramp_, actual, {}, &RampStep::actual);
     next = std::clamp(next, ramp_.begin() + 1, ramp_.end() - 1);
     const RampStep &a = *(next - 1), &b = *next;
-    const double fraction = std::log(shown / a.shown) / std::log(b.shown / a.shown);
+    const double fraction = std::log(actual / a.actual) / std::log(b.actual / a.actual);
     return a.expected * std::pow(b.expected / a.expected, fraction);
 }
 
@@ -93,13 +93,14 @@ void Response::measurePrimaries(const std::array<glm::dvec3, 3>& columns, double
         if (const double far = distance(measured, matrix); far < min) {
             min = far;
             primaries_ = primaries;
-            told_from_shown_ = glm::inverse(matrix);
+            expected_from_actual_ = glm::inverse(matrix);
         }
-    if (!primaries_ && std::abs(glm::determinant(measured)) > 1e-3) told_from_shown_ = glm::inverse(measured);
+    if (!primaries_ && std::abs(glm::determinant(measured)) > 1e-3)
+        expected_from_actual_ = glm::inverse(measured);
 }
 
-glm::dvec3 Response::radiance(const glm::dvec3& shown) const {
-    return told_from_shown_ * glm::dvec3(straight(shown.r), straight(shown.g), straight(shown.b));
+glm::dvec3 Response::radiance(const glm::dvec3& actual) const {
+    return expected_from_actual_ * glm::dvec3(straight(actual.r), straight(actual.g), straight(actual.b));
 }
 
 }  // namespace diptych::external

@@ -15,7 +15,7 @@
 namespace diptych::external {
 
 struct RampStep {
-    double expected = 0, shown = 0;  // radiance, W/(sr m^2), and pixel value
+    double expected = 0, actual = 0;  // radiance, W/(sr m^2), and pixel value
 };
 
 enum class CurveKind { linear, srgb, tone };
@@ -36,17 +36,17 @@ public:
     // Empty if the primaries are unknown.
     std::optional<Primaries> primaries() const { return primaries_; }
 
-    glm::dvec3 radiance(const glm::dvec3& shown) const;
+    glm::dvec3 radiance(const glm::dvec3& actual) const;
 
 private:
-    double straight(double shown) const;  // without primaries
+    double straight(double actual) const;  // without primaries
 
     std::vector<RampStep> ramp_;  // both ascending; without clipped steps
     CurveKind kind_ = CurveKind::tone;
     double exposure_ = 1;
     std::optional<double> cut_off_;
     std::optional<Primaries> primaries_ = Primaries::rec709;
-    glm::dmat3 told_from_shown_{1.0};
+    glm::dmat3 expected_from_actual_{1.0};
 };
 
 }  // namespace diptych::external

@@ -16,11 +16,11 @@ namespace {
 constexpr double pi = glm::pi<double>();
 
 // Direction in the original environment that appears at `direction` after mirroring and rotation.
-glm::dvec3 before(const glm::dvec3& direction, const SkyMeaning& meaning) {
-    const double angle = glm::radians(-meaning.turned), c = std::cos(angle), s = std::sin(angle);
-    const glm::dvec3 unturned(c * direction.x + s * direction.z, direction.y,
-                              -s * direction.x + c * direction.z);
-    return {meaning.mirrored ? -unturned.x : unturned.x, unturned.y, unturned.z};
+glm::dvec3 before(const glm::dvec3& direction, const SkyInterpretation& interpretation) {
+    const double angle = glm::radians(-interpretation.rotation), c = std::cos(angle), s = std::sin(angle);
+    const glm::dvec3 unrotated(c * direction.x + s * direction.z, direction.y,
+                               -s * direction.x + c * direction.z);
+    return {interpretation.mirrored ? -unrotated.x : unrotated.x, unrotated.y, unrotated.z};
 }
 
 // Environment pixels as directional lights: direction, and irradiance / pi at normal incidence.
@@ -61,46 +61,46 @@ glm::dvec3 lightFrom(const Image& sky, const glm::dvec3& normal, bool cut_off) {
     return Texels(sky).lightOn(normal, cut_off);
 }
 
-SkyMeaning skyMeaning(const Image& sky, std::span<const TiltedFace> faces) {
+SkyInterpretation skyInterpretation(const Image& sky, std::span<const TiltedFace> faces) {
     const Texels texels(sky);
     double all = 0;
-    for (const TiltedFace& face : faces) all += glm::dot(face.shown, face.shown);
-    const auto tried = [&](SkyMeaning meaning) {
+    for (const TiltedFace& face : faces) all += glm::dot(face.radiance, face.radiance);
+    const auto tried = [&](SkyInterpretation interpretation) {
         double products = 0, squares = 0;
         std::vector<glm::dvec3> light;
         for (const TiltedFace& face : faces) {
-            light.push_back(texels.lightOn(before(face.normal, meaning), meaning.cut_off));
-            products += glm::dot(face.shown, light.back());
+            light.push_back(texels.lightOn(before(face.normal, interpretation), interpretation.cut_off));
+            products += glm::dot(face.radiance, light.back());
             squares += glm::dot(light.back(), light.back());
         }
-        meaning.factor = squares > 0 ? products / squares : 1;
+        interpretation.factor = squares > 0 ? products / squares : 1;
         double rest = 0;
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            const glm::dvec3 off = faces[i].shown - meaning.factor * light[i];
+            const glm::dvec3 off = faces[i].radiance - interpretation.factor * light[i];
             rest += glm::dot(off, off);
         }
-        meaning.residual = all > 0 ? std::sqrt(rest / all) : 0;
-        return meaning;
+        interpretation.residual = all > 0 ? std::sqrt(rest / all) : 0;
+        return interpretation;
     };
-    const SkyMeaning as_told = tried({});
-    SkyMeaning best = as_told;
+    const SkyInterpretation as_expected = tried({});
+    SkyInterpretation best = as_expected;
     for (const bool cut_off : {false, true})
         for (const bool mirrored : {false, true})
-            for (int turned = -175; turned <= 180; turned += 5)
-                if (const SkyMeaning one = tried({mirrored, double(turned), cut_off, 1, 0});
+            for (int rotation = -175; rotation <= 180; rotation += 5)
+                if (const SkyInterpretation one = tried({mirrored, double(rotation), cut_off, 1, 0});
                     one.residual < best.residual)
                     best = one;
-    if (!(best.residual < 0.5 * as_told.residual)) return as_told;
+    if (!(best.residual < 0.5 * as_expected.residual)) return as_expected;
     // Prefer a simpler explanation if its residual is hardly larger: no clipping, or a multiple of 90
     // degrees.
     constexpr double hardly = 1.25, noise = 0.01;
-    const auto isAsGood = [&](const SkyMeaning& one) {
+    const auto isAsGood = [&](const SkyInterpretation& one) {
         return one.residual < hardly * best.residual + noise;
     };
-    for (const double turned : {0.0, 90.0, 180.0, -90.0})
+    for (const double rotation : {0.0, 90.0, 180.0, -90.0})
         for (const bool mirrored : {false, true})
             for (const bool cut_off : {false, true})
-                if (const SkyMeaning one = tried({mirrored, turned, cut_off, 1, 0}); isAsGood(one))
+                if (const SkyInterpretation one = tried({mirrored, rotation, cut_off, 1, 0}); isAsGood(one))
                     return one;
     return best;
 }

@@ -313,7 +313,7 @@ TEST(Calibration, AFaceTakesFromTheSkyWhatTheReferenceSays) {
         const std::string& name = charts.materials[static_cast<std::size_t>(primitive.material)].name;
         if (!std::set<std::string>{"front", "left", "right", "up", "down"}.contains(name)) continue;
         ++faces;
-        const auto shown = shownBy(ids, primitive.material, lit, {});
+        const auto shown = medianColor(ids, primitive.material, lit, {});
         ASSERT_TRUE(shown) << name;
         const glm::dvec3 light =
             lightFrom(charts.environment->radiance, glm::dvec3(primitive.normals.front()), false);
