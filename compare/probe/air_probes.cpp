@@ -41,7 +41,7 @@ Probe exponentialProbe() {
     p.definition = [](const float* in, double* out) {
         out[0] = std::exp(double{in[0]}), out[1] = std::expm1(double{in[0]});
     };
-    follow(p, [](const auto* in, auto* out) {
+    setOperations(p, [](const auto* in, auto* out) {
         out[0] = monotoneOf(in[0], exact_exp, exponential_promise, exponential_flush);
         out[1] = monotoneOf(in[0], exact_expm1, exponential_promise, exponential_flush);
     });
@@ -83,7 +83,7 @@ Probe alongProbe() {
     p.definition = [](const float* in, double* out) {
         out[0] = airByDefinition(double{in[0]}, double{in[1]}, double{in[2]}, double{in[3]});
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N low = in[0] + min(in[1], N(0.0f)), x = max(size(in[1]) * in[3], N(1e-30f));
         const N whole = monotoneOf(min(max(-low * in[3], N(-87.0f)), N(60.0f)), exact_exp,
                                    exponential_promise, exponential_flush);
@@ -109,11 +109,11 @@ Probe beyondProbe() {
         const double opaque = double{gpu::HAZE_OPAQUE_METRES};
         out[0] = in[1] > 0 ? std::min(density / (double{in[1]} * double{in[2]}), opaque) : opaque;
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N whole = monotoneOf(min(max(-in[0] * in[2], N(-87.0f)), N(60.0f)), exact_exp,
                                    exponential_promise, exponential_flush);
         const N opaque(gpu::HAZE_OPAQUE_METRES);
-        out[0] = chosen(isLess(N(0.0f), in[1]), min(whole / max(in[1] * in[2], N(1e-30f)), opaque), opaque);
+        out[0] = select(isLess(N(0.0f), in[1]), min(whole / max(in[1] * in[2], N(1e-30f)), opaque), opaque);
     });
     return p;
 }
@@ -156,7 +156,7 @@ Probe hazeProbe() {
             out[c] = std::exp(-depth), out[3 + c] = source * -std::expm1(-depth);
         }
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N one(1.0f);
         const Vec<N> apart = nearlyUnit(vecAt(in + 20)) - nearlyUnit(vecAt(in + 4));
         const N d2 = dot(apart, apart), cosine = one - N(0.5f) * d2, k = in[11] + in[15] * d2;
@@ -185,11 +185,11 @@ Probe logRatioProbe() {
         const double z = std::min(double{in[0]}, double{0.9999999f});
         out[0] = z < 1e-12 ? 1 : -std::log1p(-z) / z;
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N one(1.0f), w = min(in[0], N(0.9999999f));
         const N series = one + w * (N(0.5f) + w * (N(0.33333333f) + w * N(0.25f)));
         const N ratio = -naturalLogarithm(one - w) / max(w, N(0.0099f));
-        out[0] = chosen(isLess(w, N(0.01f)), approximating(series, 0.01 * 0.01 * 0.01 * 0.01 / 5), ratio);
+        out[0] = select(isLess(w, N(0.01f)), approximating(series, 0.01 * 0.01 * 0.01 * 0.01 / 5), ratio);
     });
     return p;
 }

@@ -59,7 +59,7 @@ Probe distribution() {
         const Vec<double> n = unit(exactVec(in + 1)), h = unit(exactVec(in + 4));
         out[0] = ggx(double{in[0]}, dot(n, h), length(cross(n, h)));
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const Vec<N> n = nearlyUnit(vecAt(in + 1)), s = vecAt(in + 4);
         const N k = in[0] * dot(s, s) / denominator(in[0] * in[0], n, s);
         out[0] = k * k * N(gpu::INVERSE_PI);
@@ -132,7 +132,7 @@ Probe lobeProbe() {
     p.definition = [](const float* in, double* out) {
         out[0] = lobeByDefinition(double{in[0]}, unit(exactVec(in + 1)), exactVec(in + 4), exactVec(in + 7));
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         out[0] = lobeSequence(in[0], nearlyUnit(vecAt(in + 1)), vecAt(in + 4), vecAt(in + 7));
     });
     return p;
@@ -145,7 +145,7 @@ Probe reciprocityProbe() {
     p.ins = 10;
     p.outs = 2;
     p.make = [](Random& random, std::size_t, float* in) { makeLobeRow(random, 1.001e-4, in); };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const Vec<N> n = nearlyUnit(vecAt(in + 1)), v = vecAt(in + 4), l = vecAt(in + 7);
         out[0] = lobeSequence(in[0], n, v, l);
         out[1] = lobeSequence(in[0], n, l, v);
@@ -209,7 +209,7 @@ Probe energyProbe() {
         put(e.v, in + 4);
         put(e.l, in + 7);
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         out[0] = lobeSequence(in[0], vecAt(in + 1), vecAt(in + 4), vecAt(in + 7));
     });
     p.evaluate = [allowance = p.allowance](const float* in, const float* out, Tally& tally) {
@@ -242,7 +242,7 @@ Probe schlickProbe() {
     p.line = 256;
     p.make = [](Random&, std::size_t row, float* in) { in[0] = onLine(row, 256, 0, 1); };
     p.definition = [](const float* in, double* out) { out[0] = std::pow(1 - double{in[0]}, 5); };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N x = min(max(N(1.0f) - in[0], N(0.0f)), N(1.0f)), x2 = x * x;
         out[0] = x2 * x2 * x;
     });
@@ -280,7 +280,7 @@ Probe lightProbe() {
         out[1] =
             (metallic * metal + (1 - metallic) * dielectric) * lobeByDefinition(double{in[0]}, n, v, l) * nl;
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const Vec<N> n = nearlyUnit(vecAt(in + 1)), v = nearlyUnit(vecAt(in + 4)),
                      l = nearlyUnit(vecAt(in + 7));
         const N one(1.0f), metallic = in[10], albedo = in[11], f0 = in[12], f90 = in[13];

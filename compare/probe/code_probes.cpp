@@ -78,31 +78,31 @@ Probe octahedralProbe(std::uint32_t bits) {
     p.ins = 3;
     p.outs = 5;
     p.make = [](Random& random, std::size_t, float* in) { put(foldedDirection(random), in); };
-    follow(p, [bits]<class N>(const N* in, N* out) {
+    setOperations(p, [bits]<class N>(const N* in, N* out) {
         const N one(1.0f), inverse = one / sumOf(size(in[0]), size(in[1]), size(in[2]));
         N p0 = in[0] * inverse, p1 = in[1] * inverse;
         const auto below = isLess(in[2], N(0.0f));
         const auto wrap = [&](N c, N other) {
-            return chosen(isLess(c, N(0.0f)), -(one - size(other)), one - size(other));
+            return select(isLess(c, N(0.0f)), -(one - size(other)), one - size(other));
         };
-        const N q0 = chosen(below, wrap(p0, p1), p0), q1 = chosen(below, wrap(p1, p0), p1);
+        const N q0 = select(below, wrap(p0, p1), p0), q1 = select(below, wrap(p1, p0), p1);
         const N top(static_cast<float>(topOfCoordinate(bits))), half(0.5f);
         out[0] = floorOf(min(max(q0, -one), one) * top + half);
         out[1] = floorOf(min(max(q1, -one), one) * top + half);
         // Decoded as in decodedProbe(); this only generates an inexact device's result.
         const N x = out[0] * (one / top), y = out[1] * (one / top), z = one - size(x) - size(y);
         const auto under = isLess(z, N(0.0f));
-        const N x2 = chosen(under, wrap(x, y), x), y2 = chosen(under, wrap(y, x), y);
+        const N x2 = select(under, wrap(x, y), x), y2 = select(under, wrap(y, x), y);
         const N l = root(sumOf(x2 * x2, y2 * y2, z * z));
         out[2] = x2 / l, out[3] = y2 / l, out[4] = z / l;
     });
     p.evaluate = [bits](const float* in, const float* out, Tally& tally) {
         const Vec<double> n = exactVec(in);
-        const std::array<double, 2> place = octahedralPosition(n);
+        const std::array<double, 2> position = octahedralPosition(n);
         const double top = topOfCoordinate(bits);
         // A coordinate of at most 1 is off by up to 8 ULP of 1: five operations, one of them a division.
         for (std::size_t i = 0; i < 2; ++i)
-            tally.value(tally.first_row, i, out[i], place[i] * top, 0.5 + 8 * 0x1p-24 * top, 1);
+            tally.value(tally.first_row, i, out[i], position[i] * top, 0.5 + 8 * 0x1p-24 * top, 1);
         const auto angle = static_cast<float>(angleBetween(n, exactVec(out + 2)));
         tally.value(tally.first_row, 2, angle, 0, octahedralBound(bits) + 8 * 0x1p-23, 0);
     };
@@ -130,15 +130,15 @@ Probe decodedProbe(std::uint32_t bits) {
         const Vec<double> n = octahedralDirection(double{in[0]} / top, double{in[1]} / top);
         out[0] = n.x, out[1] = n.y, out[2] = n.z;
     };
-    follow(p, [top]<class N>(const N* in, N* out) {
+    setOperations(p, [top]<class N>(const N* in, N* out) {
         const N one(1.0f), inverse = one / N(static_cast<float>(top));
         const N x = in[0] * inverse, y = in[1] * inverse, z = one - size(x) - size(y);
         const auto wrap = [&](N c, N other) {
-            return chosen(isLess(c, N(0.0f)), -(one - size(other)), one - size(other));
+            return select(isLess(c, N(0.0f)), -(one - size(other)), one - size(other));
         };
         // At the edge both halves are the same point.
         const auto under = isLess(z, N(0.0f));
-        const N x2 = chosen(under, wrap(x, y), x), y2 = chosen(under, wrap(y, x), y);
+        const N x2 = select(under, wrap(x, y), x), y2 = select(under, wrap(y, x), y);
         const N l = root(sumOf(x2 * x2, y2 * y2, z * z));
         out[0] = x2 / l, out[1] = y2 / l, out[2] = z / l;
     });
@@ -159,7 +159,7 @@ Probe unormProbe(std::uint32_t bits) {
     p.definition = [top](const float* in, double* out) {
         out[0] = std::clamp(double{in[0]}, 0.0, 1.0) * top;
     };
-    follow(p, [top]<class N>(const N* in, N* out) {
+    setOperations(p, [top]<class N>(const N* in, N* out) {
         const N x = min(max(in[0], N(0.0f)), N(1.0f));
         out[0] = floorOf(x * N(static_cast<float>(top)) + N(0.5f));
     });
@@ -179,8 +179,8 @@ Probe unormBackProbe(std::uint32_t bits) {
     p.unit = "ULP";
     p.make = [](Random&, std::size_t row, float* in) { in[0] = static_cast<float>(row); };
     p.definition = [top](const float* in, double* out) { out[0] = double{in[0]} / top; };
-    follow(p,
-           [top]<class N>(const N* in, N* out) { out[0] = in[0] * (N(1.0f) / N(static_cast<float>(top))); });
+    setOperations(
+        p, [top]<class N>(const N* in, N* out) { out[0] = in[0] * (N(1.0f) / N(static_cast<float>(top))); });
     return p;
 }
 
@@ -196,7 +196,7 @@ Probe rootCodeProbe() {
     };
     p.step = [](const float*, std::size_t, double) { return 1; };
     p.definition = [top](const float* in, double* out) { out[0] = top * std::sqrt(double{in[0]}); };
-    follow(p, [top]<class N>(const N* in, N* out) {
+    setOperations(p, [top]<class N>(const N* in, N* out) {
         out[0] = floorOf(min(max(root(in[0]), N(0.0f)), N(1.0f)) * N(static_cast<float>(top)) + N(0.5f));
     });
     p.allowance = [top](const float* in, double* allowed) {
@@ -215,7 +215,7 @@ Probe rootBackProbe() {
     p.unit = "ULP";
     p.make = [](Random&, std::size_t row, float* in) { in[0] = static_cast<float>(row); };
     p.definition = [top](const float* in, double* out) { out[0] = std::pow(double{in[0]} / top, 2); };
-    follow(p, [top]<class N>(const N* in, N* out) {
+    setOperations(p, [top]<class N>(const N* in, N* out) {
         const N x = in[0] * (N(1.0f) / N(static_cast<float>(top)));
         out[0] = x * x;
     });

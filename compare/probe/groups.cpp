@@ -6,7 +6,7 @@ namespace diptych::probe {
 const std::vector<Probe>& allProbes() {
     static const std::vector<Probe> probes = [] {
         std::vector<Probe> all;
-        for (const auto group : {operationProbes, brdfProbes, lightProbes, codeProbes, placeProbes,
+        for (const auto group : {operationProbes, brdfProbes, lightProbes, codeProbes, positionProbes,
                                  momentProbes, ltcProbes, surfaceProbes, airProbes})
             for (Probe& probe : group()) all.push_back(std::move(probe));
         return all;

@@ -10,7 +10,7 @@ std::vector<Probe> operationProbes();  // device operations
 std::vector<Probe> brdfProbes();       // D, the specular lobe, F
 std::vector<Probe> lightProbes();      // point and spot lights
 std::vector<Probe> codeProbes();       // octahedral, unorm, roots, 9.9.9.e5, all layouts of the G-buffer
-std::vector<Probe> placeProbes();      // positions from depth, tiles and froxels of pixels
+std::vector<Probe> positionProbes();   // positions from depth, tiles and froxels of pixels
 
 std::vector<Probe> momentProbes();  // moment shadow maps
 std::vector<Probe> airProbes();     // haze

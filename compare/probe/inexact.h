@@ -85,8 +85,8 @@ inline Inexact floorOf(Inexact a) {
 inline bool isLess(Inexact a, Inexact b) {
     return a.value < b.value;
 }
-inline Inexact chosen(bool truth, Inexact a, Inexact b) {
-    return truth ? a : b;
+inline Inexact select(bool condition, Inexact a, Inexact b) {
+    return condition ? a : b;
 }
 inline Inexact approximating(Inexact x, double relative, double absolute = 0) {
     return anyOf(approximating(Interval(x.value), relative, absolute));

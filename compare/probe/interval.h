@@ -66,14 +66,14 @@ inline Interval rounded(double lo, double hi) {
     return {floatBelow(lo), floatAbove(hi)};
 }
 // The smallest x - `ulps` ULP(x) over x in [lo, hi]; the ULP doubles at each power of two.
-inline double reachBelow(double lo, double hi, double ulps) {
-    double reach = lo - ulps * ulpOf(lo);
+inline double lowerBound(double lo, double hi, double ulps) {
+    double bound = lo - ulps * ulpOf(lo);
     const double next = lo > 0 ? std::exp2(std::floor(std::log2(lo)) + 1) : hi;
-    if (lo > 0 && next <= hi) reach = std::min(reach, next - ulps * ulpOf(next));
-    return reach;
+    if (lo > 0 && next <= hi) bound = std::min(bound, next - ulps * ulpOf(next));
+    return bound;
 }
 inline Interval within(double lo, double hi, double ulps) {
-    return rounded(reachBelow(lo, hi, ulps), -reachBelow(-hi, -lo, ulps));
+    return rounded(lowerBound(lo, hi, ulps), -lowerBound(-hi, -lo, ulps));
 }
 inline Interval hull(Interval a, Interval b) {
     return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
@@ -142,8 +142,8 @@ Interval logarithm(Interval x, Of of) {
     if (x.lo <= 0) return anything();
     const double lo = of(x.lo), hi = of(x.hi), off = 0x1p-21;
     const bool near = x.hi >= 0.5 && x.lo <= 2;
-    return rounded(std::min(reachBelow(lo, hi, 3), near ? lo - off : lo),
-                   std::max(-reachBelow(-hi, -lo, 3), near ? hi + off : hi));
+    return rounded(std::min(lowerBound(lo, hi, 3), near ? lo - off : lo),
+                   std::max(-lowerBound(-hi, -lo, 3), near ? hi + off : hi));
 }
 inline Interval binaryLogarithm(Interval x) {
     return logarithm(x, [](double v) { return std::log2(v); });
@@ -180,15 +180,15 @@ inline Interval floorOf(Interval a) {
     return {std::floor(a.lo), std::floor(a.hi)};
 }
 
-// A comparison whose result may depend on rounding.
-struct Truth {
+// The result of a comparison, which may depend on rounding.
+struct Tribool {
     bool may_hold, may_fail;
 };
-inline Truth isLess(Interval a, Interval b) {
+inline Tribool isLess(Interval a, Interval b) {
     return {a.lo < b.hi, a.hi >= b.lo};
 }
-inline Interval chosen(Truth truth, Interval a, Interval b) {
-    return truth.may_hold ? truth.may_fail ? hull(a, b) : a : b;
+inline Interval select(Tribool condition, Interval a, Interval b) {
+    return condition.may_hold ? condition.may_fail ? hull(a, b) : a : b;
 }
 
 // Widens an interval by an approximation's error.

@@ -30,7 +30,7 @@ N attenuationSequence(Vec<N> to_light, N inverse_range_squared, N& inverse) {
     const N one(1.0f), d2 = max(dot(to_light, to_light), N(gpu::MIN_LIGHT_DISTANCE_SQUARED));
     const N x = d2 * inverse_range_squared;
     inverse = inverseRoot(d2);
-    return chosen(isLess(x, one), one - x * x, N(0.0f)) * (inverse * inverse);
+    return select(isLess(x, one), one - x * x, N(0.0f)) * (inverse * inverse);
 }
 
 // No range, one far beyond the distance, or one close to it.
@@ -65,7 +65,7 @@ Probe pointProbe() {
         out[0] = attenuation(to, double{in[3]});
         out[1] = direction.x, out[2] = direction.y, out[3] = direction.z;
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         N inverse{};
         out[0] = attenuationSequence(vecAt(in), in[3], inverse);
         for (int i = 0; i < 3; ++i) out[1 + i] = in[i] * inverse;
@@ -90,7 +90,7 @@ Probe fallOffProbe() {
         in[3] = line.coin() ? 0 : static_cast<float>(1 / std::pow(line.logarithmic(0.5, 1000), 2));
     };
     p.definition = [](const float* in, double* out) { out[0] = attenuation(exactVec(in), double{in[3]}); };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         N inverse{};
         out[0] = attenuationSequence(vecAt(in), in[3], inverse);
     });
@@ -129,7 +129,7 @@ Probe spotProbe() {
         const double point = attenuation(exactVec(in), double{in[3]});
         return point == 0 ? 0 : ulpOf(point);
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         N inverse{};
         const Vec<N> to = vecAt(in);
         const N point = attenuationSequence(to, in[3], inverse);

@@ -29,7 +29,7 @@ constexpr auto exact_arc = [](double x) {
 template <class N>
 N ratioSequence(N cosine, N sine) {
     const N ratio = monotoneOf(min(size(cosine), N(1.0f)), exact_arc, arc_promise);
-    return chosen(isLess(cosine, N(0.0f)), N(gpu::PI) / max(sine, N(1e-15f)) - ratio, ratio);
+    return select(isLess(cosine, N(0.0f)), N(gpu::PI) / max(sine, N(1e-15f)) - ratio, ratio);
 }
 
 Probe angleProbe() {
@@ -51,9 +51,9 @@ Probe angleProbe() {
     };
     // The pair is rounded: both functions use the component that determines the angle best, the definition
     // uses both.
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N small = monotoneOf(min(size(in[0]), N(1.0f)), exact_arc, arc_promise) * in[1];
-        const N angle = chosen(isLess(in[0], N(0.0f)), N(gpu::PI) - small, small);
+        const N angle = select(isLess(in[0], N(0.0f)), N(gpu::PI) - small, small);
         out[0] = approximating(angle, 0x1p-22);
         out[1] = approximating(ratioSequence(in[0], in[1]), 0x1p-22);
     });
@@ -92,7 +92,7 @@ Probe edgeProbe() {
         const Vec<double> e = edgeByDefinition(exactVec(in), exactVec(in + 3));
         out[0] = e.x, out[1] = e.y, out[2] = e.z;
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const Vec<N> e = edgeSequence(vecAt(in), vecAt(in + 3));
         out[0] = e.x, out[1] = e.y, out[2] = e.z;
     });
@@ -125,8 +125,8 @@ Vec<double> parallelogramByDefinition(const float* in) {
 }
 
 template <class N, class T>
-Vec<N> chosenVec(T truth, Vec<N> a, Vec<N> b) {
-    return {chosen(truth, a.x, b.x), chosen(truth, a.y, b.y), chosen(truth, a.z, b.z)};
+Vec<N> selectVec(T condition, Vec<N> a, Vec<N> b) {
+    return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
 
 template <class N>
@@ -139,13 +139,13 @@ Vec<N> parallelogramSequence(const N* in) {
     for (int i = 0; i < 4; ++i) {
         const Vec<N> p = corners[i], q = corners[(i + 1) % 4];
         const auto p_above = isLess(zero, p.z), q_above = isLess(zero, q.z);
-        const N side = chosen(p_above, one, -one);
+        const N side = select(p_above, one, -one);
         Vec<N> crossing = (q * p.z - p * q.z) * side;
         crossing.z = zero;
-        const Vec<N> edge = edgeSequence(chosenVec(p_above, p, crossing), chosenVec(q_above, q, crossing));
-        sum = sum + chosenVec(p_above, edge, chosenVec(q_above, edge, none));
-        leaves = chosenVec(p_above, chosenVec(q_above, leaves, crossing), leaves);
-        returns = chosenVec(q_above, chosenVec(p_above, returns, crossing), returns);
+        const Vec<N> edge = edgeSequence(selectVec(p_above, p, crossing), selectVec(q_above, q, crossing));
+        sum = sum + selectVec(p_above, edge, selectVec(q_above, edge, none));
+        leaves = selectVec(p_above, selectVec(q_above, leaves, crossing), leaves);
+        returns = selectVec(q_above, selectVec(p_above, returns, crossing), returns);
     }
     return sum + edgeSequence(leaves, returns);
 }
@@ -186,7 +186,7 @@ Probe parallelogramProbe(bool plain) {
         const Vec<double> f = parallelogramByDefinition(in);
         out[0] = f.x, out[1] = f.y, out[2] = f.z;
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const Vec<N> f = parallelogramSequence(in);
         out[0] = f.x, out[1] = f.y, out[2] = f.z;
     });

@@ -59,7 +59,7 @@ Probe warpProbe() {
         out[0] = std::exp(double{in[0]} * d), out[1] = std::exp(2 * double{in[0]} * d);
         out[2] = -std::exp(-double{in[1]} * d), out[3] = std::exp(-2 * double{in[1]} * d);
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N d = awaySequence(in[6], in[2]), w = exponential(in[0] * d), n = -exponential(-in[1] * d);
         out[0] = w, out[1] = w * w, out[2] = n, out[3] = n * n;
     });
@@ -83,8 +83,8 @@ Probe chebyshevProbe() {
         const double t = double{in[0]} / std::sqrt(double{in[1]});
         out[0] = t > 0 ? 1 / (1 + t * t) : 1;
     };
-    follow(p, []<class N>(const N* in, N* out) {
-        out[0] = chosen(isLess(N(0.0f), in[0]), in[1] / (in[1] + in[0] * in[0]), N(1.0f));
+    setOperations(p, []<class N>(const N* in, N* out) {
+        out[0] = select(isLess(N(0.0f), in[0]), in[1] / (in[1] + in[0] * in[0]), N(1.0f));
     });
     return p;
 }
@@ -172,11 +172,11 @@ Probe visibilityProbe(bool four) {
         if (four) fraction = std::min(fraction, bound(double{in[8]}, double{in[9]}, k, n));
         out[0] = std::clamp((fraction - double{in[3]}) / (1 - double{in[3]}), 0.0, 1.0);
     };
-    follow(p, [four]<class N>(const N* in, N* out) {
+    setOperations(p, [four]<class N>(const N* in, N* out) {
         const N one(1.0f), zero(0.0f), max_variance(1e30f);
         const N d = awaySequence(in[10], in[2]), range = one - in[2];
         const auto bound = [&](N behind, N variance) {
-            return chosen(isLess(zero, behind), variance / (variance + behind * behind), one);
+            return select(isLess(zero, behind), variance / (variance + behind * behind), one);
         };
         const N per_w = exponential(-in[0] * d), mean = in[6] * per_w, square = in[7] * per_w * per_w;
         N slope = in[0] * range;
@@ -236,7 +236,7 @@ Probe hamburgerProbe() {
         for (std::size_t i = 0; i < 4; ++i) b[i] = double{in[i]} * (1 - double{in[5]}) + 0.5 * double{in[5]};
         out[0] = minBefore(b, double{in[4]});
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N one(1.0f), zero(0.0f), half(0.5f), tiny(1e-20f), depth = in[4];
         N b[4];
         for (int i = 0; i < 4; ++i) b[i] = in[i] * (one - in[5]) + half * in[5];
@@ -246,11 +246,11 @@ Probe hamburgerProbe() {
         const N c2 = (depth * depth - b[1] - l32 * c1) * (d22 / d33_d22);
         c1 = c1 / d22 - l32 * c2;
         const N c0 = one - c1 * b[0] - c2 * b[1];
-        const N scale = chosen(isLess(tiny, size(c2)), c2, tiny), q = half * c1 / scale;
+        const N scale = select(isLess(tiny, size(c2)), c2, tiny), q = half * c1 / scale;
         const N r = root(max(q * q - c0 / scale, zero)), x = -q - r, y = -q + r;
         const N at = (x * y - b[0] * (x + y) + b[1]) / ((depth - x) * (depth - y));
         const N first = (depth * y - b[0] * (depth + y) + b[1]) / ((y - x) * (depth - x));
-        const N before = chosen(isLess(y, depth), one - at, chosen(isLess(x, depth), first, zero));
+        const N before = select(isLess(y, depth), one - at, select(isLess(x, depth), first, zero));
         out[0] = min(max(before, zero), one);
     });
     return p;

@@ -30,14 +30,14 @@ void positive(Probe& p) {
     };
 }
 
-template <class Exact, class Sequence>
-void unary(Probe& p, Exact exact, Sequence sequence) {
+template <class Exact, class Operations>
+void unary(Probe& p, Exact exact, Operations operations) {
     p.definition = [exact](const float* in, double* out) { out[0] = exact(double{in[0]}); };
-    follow(p, [sequence](const auto* in, auto* out) { out[0] = sequence(in[0]); });
+    setOperations(p, [operations](const auto* in, auto* out) { out[0] = operations(in[0]); });
 }
 
-template <class Exact, class Sequence>
-void binary(Probe& p, Exact exact, Sequence sequence) {
+template <class Exact, class Operations>
+void binary(Probe& p, Exact exact, Operations operations) {
     p.ins = 2;
     p.make = [](Random& random, std::size_t, float* in) {
         in[0] = signedMagnitude(random, 0x1p-60, 0x1p60);
@@ -46,7 +46,7 @@ void binary(Probe& p, Exact exact, Sequence sequence) {
                               : static_cast<float>(-double{in[0]} * random.uniform(0.5, 2));
     };
     p.definition = [exact](const float* in, double* out) { out[0] = exact(double{in[0]}, double{in[1]}); };
-    follow(p, [sequence](const auto* in, auto* out) { out[0] = sequence(in[0], in[1]); });
+    setOperations(p, [operations](const auto* in, auto* out) { out[0] = operations(in[0], in[1]); });
 }
 
 const char* const magnitudes = "|a|, |b| from 2^-60 to 2^60, log-uniform, half of them cancelling";
@@ -92,7 +92,7 @@ Probe fmaProbe() {
     p.step = [](const float* in, std::size_t, double) {
         return ulpOf(std::abs(double{in[0]} * double{in[1]}) + std::abs(double{in[2]}));
     };
-    follow(p, [](const auto* in, auto* out) { out[0] = in[0] * in[1] + in[2]; });
+    setOperations(p, [](const auto* in, auto* out) { out[0] = in[0] * in[1] + in[2]; });
     return p;
 }
 
@@ -112,7 +112,8 @@ Probe dotProbe() {
     };
     p.unit = "ULP of 1";
     p.step = [](const float*, std::size_t, double) { return ulpOf(1); };
-    follow(p, [](const auto* in, auto* out) { out[0] = sumOf(in[0] * in[3], in[1] * in[4], in[2] * in[5]); });
+    setOperations(
+        p, [](const auto* in, auto* out) { out[0] = sumOf(in[0] * in[3], in[1] * in[4], in[2] * in[5]); });
     return p;
 }
 

@@ -57,21 +57,21 @@ struct Probe {
     bool strict = false;
 };
 
-// Sets allowance and inexact from the shader's operations, `sequence(const N* in, N* out)`, for N =
+// Sets allowance and inexact from the shader's operations, `operations(const N* in, N* out)`, for N =
 // Interval and N = Inexact. The interval contains both the device's and the exact result, so its width
 // limits their difference.
-template <class Sequence>
-void follow(Probe& probe, Sequence sequence) {
-    probe.allowance = [sequence, n = probe.ins, m = probe.outs](const float* in, double* allowed) {
+template <class Operations>
+void setOperations(Probe& probe, Operations operations) {
+    probe.allowance = [operations, n = probe.ins, m = probe.outs](const float* in, double* allowed) {
         std::array<Interval, widest> from, to;
         for (std::size_t i = 0; i < n; ++i) from[i] = in[i];
-        sequence(from.data(), to.data());
+        operations(from.data(), to.data());
         for (std::size_t i = 0; i < m; ++i) allowed[i] = to[i].width();
     };
-    probe.inexact = [sequence, n = probe.ins, m = probe.outs](const float* in, float* out) {
+    probe.inexact = [operations, n = probe.ins, m = probe.outs](const float* in, float* out) {
         std::array<Inexact, widest> from, to;
         for (std::size_t i = 0; i < n; ++i) from[i] = in[i];
-        sequence(from.data(), to.data());
+        operations(from.data(), to.data());
         for (std::size_t i = 0; i < m; ++i) out[i] = to[i].value;
     };
 }

@@ -51,14 +51,14 @@ Probe roughnessProbe() {
         const double widened = std::pow(std::min(std::pow(r, 4) + kernel, 1.0), 0.25);
         out[0] = change > double{in[7]} ? std::max(widened, double{in[0]}) : double{in[0]};
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const Vec<N> x = vecAt(in + 1), y = vecAt(in + 4);
         const N change = dot(x, x) + dot(y, y), zero(0.0f);
-        const N kernel = chosen(isLess(in[7], change), min(N(2.0f) * N(variance) * change, N(limit)), zero);
+        const N kernel = select(isLess(in[7], change), min(N(2.0f) * N(variance) * change, N(limit)), zero);
         N alpha = max(in[0], N(gpu::MIN_PERCEPTUAL_ROUGHNESS));
         alpha = alpha * alpha;
         const N filtered = root(root(min(alpha * alpha + kernel, N(1.0f))));
-        out[0] = chosen(isLess(zero, kernel), max(filtered, in[0]), in[0]);
+        out[0] = select(isLess(zero, kernel), max(filtered, in[0]), in[0]);
     });
     return p;
 }
@@ -89,7 +89,7 @@ Probe betweenProbe(bool energy) {
         const double mean = f0 * 20 / 21 + f90 / 21;
         out[2] = (f0 * x + f90 * y) * mean * lost / (std::numbers::pi * (1 - mean * lost));
     };
-    follow(p, [energy]<class N>(const N* in, N* out) {
+    setOperations(p, [energy]<class N>(const N* in, N* out) {
         const N one(1.0f), all = in[2] + in[3], lost = max(one - all, N(0.0f));
         const N gain = energy ? one + in[0] * (lost / all) : one;
         out[0] = in[0] * gain, out[1] = in[1] * gain, out[2] = N(0.0f);
@@ -165,12 +165,12 @@ Probe unitProbe() {
         const Vec<double> v = exactVec(in), n = length(v) > 0 ? unit(v) : v;
         out[0] = n.x, out[1] = n.y, out[2] = n.z;
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const Vec<N> v = vecAt(in);
         const N largest = max(size(v.x), max(size(v.y), size(v.z))), zero(0.0f);
         const auto there = isLess(zero, largest);
-        const Vec<N> scaled = v / chosen(there, largest, N(1.0f));
-        const N l = chosen(there, root(dot(scaled, scaled)), N(1.0f));
+        const Vec<N> scaled = v / select(there, largest, N(1.0f));
+        const N l = select(there, root(dot(scaled, scaled)), N(1.0f));
         out[0] = scaled.x / l, out[1] = scaled.y / l, out[2] = scaled.z / l;
     });
     return p;
@@ -218,7 +218,7 @@ Probe environmentHarmonicsProbe() {
             1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3 * n.z * n.z - 1, n.x * n.z, n.x * n.x - n.y * n.y};
         for (int c = 0; c < 3; ++c) out[c] = std::max(sum(wide.data(), basis, c), 0.0);
     };
-    follow(p, [sum]<class N>(const N* in, N* out) {
+    setOperations(p, [sum]<class N>(const N* in, N* out) {
         const Vec<N> n = vecAt(in + texels);
         const N one(1.0f);
         const std::array<N, 9> basis{one,
@@ -256,7 +256,7 @@ Probe objectHarmonicsProbe() {
             out[c] = std::max(sum, 0.0);
         }
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const Vec<N> n = vecAt(in + coefficients);
         for (int c = 0; c < 3; ++c) {
             const auto e = [&](int i) { return in[3 * i + c]; };
@@ -285,7 +285,7 @@ Probe maskingProbe() {
         const double c = double{in[1]}, s2 = std::max(1 - c * c, 0.0);
         out[0] = (std::sqrt(c * c + double{in[0]} * s2) - c) / (2 * c);
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N one(1.0f), c2 = in[1] * in[1];
         out[0] = N(0.5f) * (root(one + in[0] * max(one - c2, N(0.0f)) / c2) - one);
     });
@@ -310,13 +310,13 @@ Probe levelProbe() {
         out[0] = a < first_alpha ? std::log(a / min_alpha) / std::log(first_alpha / min_alpha)
                                  : 1 + gpu::ENVIRONMENT_LEVELS_AN_OCTAVE * std::log2(a / first_alpha);
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N first = binaryLogarithm(N(gpu::ENVIRONMENT_FIRST_ALPHA)),
                 lowest = N(2.0f) * binaryLogarithm(N(gpu::MIN_PERCEPTUAL_ROUGHNESS)),
                 octaves = binaryLogarithm(in[0]);
         // At the seam both branches give 1.
         out[0] =
-            chosen(isLess(octaves, first), (octaves - lowest) / (first - lowest),
+            select(isLess(octaves, first), (octaves - lowest) / (first - lowest),
                    N(1.0f) + N(static_cast<float>(gpu::ENVIRONMENT_LEVELS_AN_OCTAVE)) * (octaves - first));
     });
     return p;
@@ -354,9 +354,9 @@ Probe toneProbe() {
         const double white = 1 - 1 / (double{0.15f} * (peak - compressed) + 1);
         for (int i = 0; i < 3; ++i) out[i] = (out[i] * compressed / peak) * (1 - white) + compressed * white;
     };
-    follow(p, []<class N>(const N* in, N* out) {
+    setOperations(p, []<class N>(const N* in, N* out) {
         const N one(1.0f), f90(0.04f), start = N(0.8f) - f90, low = min(in[0], min(in[1], in[2]));
-        const N toe = chosen(isLess(low, N(0.08f)), low - low * low / (N(4.0f) * f90), f90);
+        const N toe = select(isLess(low, N(0.08f)), low - low * low / (N(4.0f) * f90), f90);
         N rgb[3];
         for (int i = 0; i < 3; ++i) rgb[i] = in[i] - toe;
         const N peak = max(rgb[0], max(rgb[1], rgb[2])), room = one - start;
@@ -364,7 +364,7 @@ Probe toneProbe() {
         const N white = one - one / (N(0.15f) * (safe - compressed) + one);
         for (int i = 0; i < 3; ++i) {
             const N curved = rgb[i] * compressed / safe;
-            out[i] = chosen(isLess(peak, start), rgb[i], curved + white * (compressed - curved));
+            out[i] = select(isLess(peak, start), rgb[i], curved + white * (compressed - curved));
         }
     });
     return p;

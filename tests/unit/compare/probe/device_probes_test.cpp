@@ -75,7 +75,7 @@ Probe doubling() {
     p.strict = true;
     p.make = [](Random&, std::size_t row, float* in) { in[0] = static_cast<float>(row + 1); };
     p.definition = [](const float* in, double* out) { out[0] = 2 * double{in[0]}; };
-    follow(p, [](const auto* in, auto* out) { out[0] = in[0] + in[0]; });
+    setOperations(p, [](const auto* in, auto* out) { out[0] = in[0] + in[0]; });
     return p;
 }
 

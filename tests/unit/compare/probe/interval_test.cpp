@@ -59,10 +59,10 @@ TEST(Interval, HoldsWhatThisMachineComputes) {
 
 TEST(Interval, ADoubtfulComparisonLeavesBoth) {
     const Interval a{1, 2}, b{1.5, 3};
-    const Interval both = chosen(isLess(a, b), Interval(0.0f), Interval(9.0f));
+    const Interval both = select(isLess(a, b), Interval(0.0f), Interval(9.0f));
     EXPECT_EQ(both.lo, 0);
     EXPECT_EQ(both.hi, 9);
-    EXPECT_EQ(chosen(isLess(Interval(1.0f), b), Interval(0.0f), Interval(9.0f)).hi, 0);
+    EXPECT_EQ(select(isLess(Interval(1.0f), b), Interval(0.0f), Interval(9.0f)).hi, 0);
 }
 
 TEST(Tally, CountsByPowersOfTwo) {

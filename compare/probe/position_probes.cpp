@@ -8,14 +8,14 @@
 namespace diptych::probe {
 namespace {
 
-Probe placeProbe(const char* name, std::uint32_t function, const char* inputs, const char* because) {
+Probe positionGroupProbe(const char* name, std::uint32_t function, const char* inputs, const char* because) {
     Probe probe;
     probe.group = "places";
     probe.name = name;
     probe.inputs = inputs;
     probe.unit = "ULP";
     probe.because = because;
-    probe.shader = "place.comp";
+    probe.shader = "position.comp";
     probe.function = function;
     return probe;
 }
@@ -55,7 +55,7 @@ const char* const planes =
     "from 1e-9 to 1 including both ends";
 
 Probe depthProbe() {
-    Probe p = placeProbe("view depth of a depth", 0, planes, "rounding in viewDepth()");
+    Probe p = positionGroupProbe("view depth of a depth", 0, planes, "rounding in viewDepth()");
     p.ins = 5;
     p.line = 256;
     p.monotone = -1;
@@ -67,13 +67,13 @@ Probe depthProbe() {
     p.unit = "ULP of sum";
     p.step = [](const float* in, std::size_t, double) { return ulpOf(depthTerms(in)); };
     p.definition = [](const float* in, double* out) { out[0] = depthByDefinition(in); };
-    follow(p, [](const auto* in, auto* out) { out[0] = depthSequence(in); });
+    setOperations(p, [](const auto* in, auto* out) { out[0] = depthSequence(in); });
     return p;
 }
 
 Probe positionProbe(bool perspective) {
-    Probe p = placeProbe(perspective ? "position, perspective" : "position, orthographic", 1, planes,
-                         "rounding in positionFromDepth()");
+    Probe p = positionGroupProbe(perspective ? "position, perspective" : "position, orthographic", 1, planes,
+                                 "rounding in positionFromDepth()");
     p.ins = 25;
     p.outs = 3;
     p.features = {{gpu::FEATURE_orthographic, perspective ? 0 : 1}};
@@ -112,7 +112,7 @@ Probe positionProbe(bool perspective) {
         };
         return ulpOf(terms(14) + terms(5) * depthTerms(in));
     };
-    follow(p, [perspective]<class N>(const N* in, N* out) {
+    setOperations(p, [perspective]<class N>(const N* in, N* out) {
         const N depth = depthSequence(in);
         for (int i = 0; i < 3; ++i) {
             const N along = perspective ? in[5 + i] + in[8 + i] * in[23] + in[11 + i] * in[24] : in[5 + i];
@@ -187,11 +187,12 @@ void evaluateFroxels(const float* lines, const float* outs, Tally& tally) {
 }
 
 Probe froxelProbe() {
-    Probe p = placeProbe("froxel of a pixel and depth", 2,
-                         "offsets 1 cm to 100 m, 2 to 64 slices of 2^17 to 2^23 floats; depths from 1e-3 m "
-                         "to beyond the last slice, and on the bounds; sequences of 256",
-                         "depth + offset may be rounded up or down; sliceDepths() is wider by 1e-6; integers "
-                         "are exact; slices increase monotonically on any device");
+    Probe p = positionGroupProbe(
+        "froxel of a pixel and depth", 2,
+        "offsets 1 cm to 100 m, 2 to 64 slices of 2^17 to 2^23 floats; depths from 1e-3 m "
+        "to beyond the last slice, and on the bounds; sequences of 256",
+        "depth + offset may be rounded up or down; sliceDepths() is wider by 1e-6; integers "
+        "are exact; slices increase monotonically on any device");
     p.ins = 9;
     p.outs = 5;
     p.line = 256;
@@ -206,7 +207,7 @@ Probe froxelProbe() {
 
 }  // namespace
 
-std::vector<Probe> placeProbes() {
+std::vector<Probe> positionProbes() {
     return {depthProbe(), positionProbe(true), positionProbe(false), froxelProbe()};
 }
 
