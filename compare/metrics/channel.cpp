@@ -89,7 +89,7 @@ public:
                 if (shift == 0) *s.value = std::bit_cast<double>(s.prefix);
             }
             if (shift == 0) break;
-            look(sought, shift);
+            countErrors(sought, shift);
             std::erase_if(sought, [](Sought& s) {
                 if (!s.few) return false;
                 const auto nth = s.gathered.begin() + static_cast<std::ptrdiff_t>(s.rank - 1);
@@ -115,7 +115,7 @@ private:
 
     // Gathers or counts the errors that begin with each prefix. A prefix has all bits except the lowest
     // `shift`.
-    void look(std::vector<Sought>& sought, int shift) const {
+    void countErrors(std::vector<Sought>& sought, int shift) const {
         struct Found {
             std::vector<Histogram> counts;
             std::vector<std::vector<double>> gathered;

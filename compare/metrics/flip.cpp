@@ -158,19 +158,22 @@ metrics::Order luminances(const ImageRows& image, bool lit) {
 // lowest.
 struct Beyond {
     double black = 0, white = std::numeric_limits<double>::infinity();
-    explicit Beyond(const std::vector<FlipLook>& looks) {
-        if (looks.empty()) return;
+    explicit Beyond(const std::vector<FlipExposure>& flip_exposures) {
+        if (flip_exposures.empty()) return;
         constexpr double half = 0.5 / 255;
-        black = whereCurveReaches(looks.back().mapper, half / 12.92) / double{looks.back().scale};
-        white = whereCurveReaches(looks.front().mapper, 1 - half) / double{looks.front().scale};
+        black = inverseToneCurve(flip_exposures.back().mapper, half / 12.92) /
+                double{flip_exposures.back().scale};
+        white =
+            inverseToneCurve(flip_exposures.front().mapper, 1 - half) / double{flip_exposures.front().scale};
     }
     bool operator()(float r, float t) const { return std::max(r, t) <= black || std::min(r, t) >= white; }
 };
 
-// Sets the errors of different pixels that FLIP cannot see. `looks`: as for flipErrorMap().
-void evaluateUnseen(const FlipPair& pair, const std::vector<FlipLook>& looks, FlipResult& result) {
-    const Beyond beyond(looks);
-    const float max = looks.empty() ? 1 : std::numeric_limits<float>::max();
+// Sets the errors of different pixels that FLIP cannot see. `flip_exposures`: as for flipErrorMap().
+void evaluateUnseen(const FlipPair& pair, const std::vector<FlipExposure>& flip_exposures,
+                    FlipResult& result) {
+    const Beyond beyond(flip_exposures);
+    const float max = flip_exposures.empty() ? 1 : std::numeric_limits<float>::max();
     const auto isUnseen = [&](const float* r, const float* t) {
         if (!finite(r, 3) || !finite(t, 3) || same(r, t)) return false;
         if (!within(r, 0, max) || !within(t, 0, max)) return true;
@@ -206,7 +209,7 @@ ExposureRange exposureRange(const ImageRows& reference, ToneMapper mapper) {
     const float max = ranks[0];
     if (!(max > 0)) return {};
     const float median = ranks[1] > 0 ? ranks[1] : luminances(reference, true).nearestRank(0.5);
-    const double bright = whereCurveReaches(mapper, 0.85);
+    const double bright = inverseToneCurve(mapper, 0.85);
     return {std::clamp(std::log2(bright / max), -maxStops, maxStops),
             std::clamp(std::log2(bright / median), -maxStops, maxStops)};
 }
@@ -233,11 +236,12 @@ struct HdrFlipAgainst::State {
         const double step =
             begun.exposures > 1 ? (begun.stop_exposure - begun.start_exposure) / (begun.exposures - 1) : 0;
         for (int i = 0; i < begun.exposures; ++i)
-            looks.push_back({static_cast<float>(std::exp2(begun.start_exposure + i * step)), o.tone_mapper});
+            flip_exposures.push_back(
+                {static_cast<float>(std::exp2(begun.start_exposure + i * step)), o.tone_mapper});
         if (max_bytes == 0) return;
         FlipResult found;
         const FlipPair itself = inspect(r, r, found);
-        kept.emplace(r, itself.holes, filters, looks, max_bytes);
+        cache.emplace(r, itself.holes, filters, flip_exposures, max_bytes);
     }
 
     // Computes only the error map; returns the pair.
@@ -248,9 +252,9 @@ struct HdrFlipAgainst::State {
         // The cached reference excludes only its own holes; a test may have more.
         const auto holes =
             pair.holes.size() - static_cast<std::size_t>(std::ranges::count(pair.holes, Hole::none));
-        flipErrorMap(pair, filters, looks, result.error,
-                     kept && holes == result.nonfinite_reference ? &*kept : nullptr);
-        evaluateUnseen(pair, looks, result);
+        flipErrorMap(pair, filters, flip_exposures, result.error,
+                     cache && holes == result.nonfinite_reference ? &*cache : nullptr);
+        evaluateUnseen(pair, flip_exposures, result);
         return pair;
     }
 
@@ -258,8 +262,8 @@ struct HdrFlipAgainst::State {
     const HdrFlipOptions options;
     const FlipFilters filters{options.pixels_per_degree};
     HdrFlipResult begun;  // has the exposures
-    std::vector<FlipLook> looks;
-    std::optional<FilteredReference> kept;
+    std::vector<FlipExposure> flip_exposures;
+    std::optional<FilteredReference> cache;
 };
 
 HdrFlipAgainst::HdrFlipAgainst(const ImageRows& reference, const HdrFlipOptions& options,

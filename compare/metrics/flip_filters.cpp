@@ -44,7 +44,7 @@ int up(double v) {
 }
 
 // Normalizes positive and negative weights separately.
-HalfKernel signsApart(const Weights& w, double positive, double negative) {
+HalfKernel normalizedBySign(const Weights& w, double positive, double negative) {
     HalfKernel kernel;
     for (const double v : w) kernel.push_back(static_cast<float>(v > 0 ? v / positive : v / negative));
     return kernel;
@@ -81,8 +81,8 @@ FlipFilters::FlipFilters(double ppd) {
         (second[k] > 0 ? positive : negative) += (k ? 2 : 1) * std::abs(second[k]);
     }
     smooth = over(g, bothSides(g));
-    edge = signsApart(first, firstSum, firstSum);
-    point = signsApart(second, positive, negative);
+    edge = normalizedBySign(first, firstSum, firstSum);
+    point = normalizedBySign(second, positive, negative);
 }
 
 int FlipFilters::radius() const {

@@ -105,13 +105,13 @@ DIPTYCH_WIDE_LANES void labInPlace(float* __restrict y, float* __restrict cx, fl
 inline float magnitude(float a, float b) {
     return std::sqrt(a * a + b * b);
 }
-inline float apart(float a, float b) {
+inline float absoluteDifference(float a, float b) {
     return a < b ? b - a : a - b;
 }
 
 // HyAB (Abasi et al. 2020).
 inline float hyab(const Triple& p, const Triple& q) {
-    return apart(p.a, q.a) + magnitude(p.b - q.b, p.c - q.c);
+    return absoluteDifference(p.a, q.a) + magnitude(p.b - q.b, p.c - q.c);
 }
 
 constexpr float qc = 0.7f, pc = 0.4f, pt = 0.95f, qf = 0.5f;  // Andersson et al. 2020, sections 4.1.3 and 4.2
@@ -140,8 +140,8 @@ DIPTYCH_WIDE_LANES void errorsOfComparable(float* __restrict out, const Comparab
     static_assert(qf == 0.5f, "the power is a square root");
     for (int i = 0; i < n; ++i) {
         const float distance = hyab({r.lightness[i], r.a[i], r.b[i]}, {t.lightness[i], t.a[i], t.b[i]});
-        const float edge = apart(r.edge[i], t.edge[i]);
-        const float point = apart(r.point[i], t.point[i]);
+        const float edge = absoluteDifference(r.edge[i], t.edge[i]);
+        const float point = absoluteDifference(r.point[i], t.point[i]);
         const float feature = std::sqrt((edge < point ? point : edge) * 0.707106781f);
         out[i] = unit(fast::pow(colorError(distance, largest), 1 - unit(feature)));
     }
@@ -198,7 +198,7 @@ ToneCurve toneCurve(ToneMapper mapper) {
     return {};
 }
 
-double whereCurveReaches(ToneMapper mapper, double value) {
+double inverseToneCurve(ToneMapper mapper, double value) {
     const ToneCurve k = toneCurve(mapper);
     const double square = k.k0 - value * k.k2, linear = k.k1 - value * k.k3, constant = -value * k.k4;
     if (square == 0) return -constant / linear;

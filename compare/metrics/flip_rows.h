@@ -28,7 +28,7 @@ struct ToneCurve {
 ToneCurve toneCurve(ToneMapper mapper);
 
 // The grey x at which the curve reaches `value`.
-double whereCurveReaches(ToneMapper mapper, double value);
+double inverseToneCurve(ToneMapper mapper, double value);
 
 // Converts n interleaved RGB pixels: sRGB values clamped to [0, 1]; or linear ones times `scale`, tone
 // mapped, negative ones as 0.

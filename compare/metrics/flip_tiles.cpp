@@ -54,13 +54,13 @@ public:
           filters_(filters),
           radius_(filters.radius()),
           stride_(tileWidth + 2 * radius_),
-          kept_(static_cast<int>(std::bit_ceil(size(2 * radius_ + 1)))),
+          ring_rows_(static_cast<int>(std::bit_ceil(size(2 * radius_ + 1)))),
           rgb_(size(3 * stride_)),
           upright_(size(stride_)),
           second_(size(tileWidth)),
           taps_(size(2 * radius_ + 1)) {
         for (FilteredImage& filtered_image : images_) {
-            filtered_image.ring.resize(size(3 * kept_) * size(stride_));
+            filtered_image.ring.resize(size(3 * ring_rows_) * size(stride_));
             filtered_image.filtered.resize(size(7 * tileWidth));
         }
     }
@@ -71,22 +71,23 @@ public:
     // gives the reference's comparable row y; if empty, it is computed.
     using ReferenceRow = std::function<ComparableRow(int y)>;
     template <class Use>
-    void errors(const Tile& tile, const FlipLook* look, const ReferenceRow& referenceRow, const Use& use) {
-        scan(tile, look, referenceRow ? test : reference, test, [&](int y) {
+    void errors(const Tile& tile, const FlipExposure* exposure, const ReferenceRow& referenceRow,
+                const Use& use) {
+        scan(tile, exposure, referenceRow ? test : reference, test, [&](int y) {
             makeErrors(y, referenceRow);
             use(y, second_.data());
         });
     }
     // Calls use(y, row) with the comparable rows of the reference.
     template <class Use>
-    void referenceRows(const Tile& tile, const FlipLook& look, const Use& use) {
-        scan(tile, &look, reference, reference, [&](int y) { use(y, comparable(reference, y)); });
+    void referenceRows(const Tile& tile, const FlipExposure& exposure, const Use& use) {
+        scan(tile, &exposure, reference, reference, [&](int y) { use(y, comparable(reference, y)); });
     }
 
 private:
     // The reference, the test and, if there are holes, a weight plane: 0 at holes, 1 elsewhere.
     struct FilteredImage {
-        std::vector<float> ring;      // kept_ rows x 3 planes
+        std::vector<float> ring;      // ring_rows_ rows x 3 planes
         std::vector<float> filtered;  // 7 rows
     };
     enum Which { reference, test, weight };
@@ -94,11 +95,11 @@ private:
     // Enters rows of the images `first` to `last`, and calls use(y) when all taps of a tile's row are
     // there.
     template <class Use>
-    void scan(const Tile& tile, const FlipLook* look, Which first, Which last, const Use& use) {
+    void scan(const Tile& tile, const FlipExposure* exposure, Which first, Which last, const Use& use) {
         tile_ = tile;
         holes_ = hasHoles();
         for (int y = tile.y0 - radius_; y < tile.y1 + radius_; ++y) {
-            for (int which = first; which <= last; ++which) enter(static_cast<Which>(which), y, look);
+            for (int which = first; which <= last; ++which) enter(static_cast<Which>(which), y, exposure);
             if (holes_) enterWeights(y);
             if (y - radius_ < tile.y0) continue;
             if (holes_) filter(images_[weight], y - radius_);
@@ -108,7 +109,7 @@ private:
 
     int paddedWidth() const { return tile_.width() + 2 * radius_; }
     float* row(FilteredImage& filtered_image, int y, int plane) const {
-        const int slot = (y - tile_.y0 + radius_) & (kept_ - 1);
+        const int slot = (y - tile_.y0 + radius_) & (ring_rows_ - 1);
         return filtered_image.ring.data() + size(3 * slot + plane) * size(stride_);
     }
     OpponentRow opponents(FilteredImage& p, int y) const {
@@ -120,7 +121,7 @@ private:
     }
 
     bool hasHoles() const;
-    void enter(Which which, int y, const FlipLook* look);
+    void enter(Which which, int y, const FlipExposure* exposure);
     void gather(const ImageRows& image, int y);
     void enterWeights(int y);
 
@@ -138,7 +139,7 @@ private:
 
     const FlipPair& pair_;
     const FlipFilters& filters_;
-    int radius_, stride_, kept_;
+    int radius_, stride_, ring_rows_;
     Tile tile_{};
     bool holes_ = false;
     FilteredImage images_[3];
@@ -193,11 +194,11 @@ void TileRows::enterWeights(int y) {
     }
 }
 
-void TileRows::enter(Which which, int y, const FlipLook* look) {
+void TileRows::enter(Which which, int y, const FlipExposure* exposure) {
     gather(which == reference ? pair_.reference : pair_.test, y);
     const OpponentRow out = opponents(images_[which], y);
-    if (look)
-        opponentsFromLinear(out, rgb_.data(), paddedWidth(), look->scale, look->mapper);
+    if (exposure)
+        opponentsFromLinear(out, rgb_.data(), paddedWidth(), exposure->scale, exposure->mapper);
     else
         opponentsFromSrgb(out, rgb_.data(), paddedWidth());
 }
@@ -275,16 +276,16 @@ void keepLargest(const float* next, float* max, int n) {
     for (int i = 0; i < n; ++i) max[i] = next[i] > max[i] ? next[i] : max[i];
 }
 
-void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& looks, Image& errors,
-                const FilteredReference* kept) {
+void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipExposure>& exposures, Image& errors,
+                const FilteredReference* cache) {
     if (rows.isSame(tile)) return;
-    if (looks.empty())
+    if (exposures.empty())
         rows.errors(tile, nullptr, {},
                     [&](int y, const float* row) { std::copy_n(row, tile.width(), &errors.at(tile.x0, y)); });
-    for (std::size_t i = 0; i < looks.size(); ++i) {
+    for (std::size_t i = 0; i < exposures.size(); ++i) {
         TileRows::ReferenceRow reference;
-        if (kept && kept->keeps(i)) reference = [&, i](int y) { return kept->row(i, tile.x0, y); };
-        rows.errors(tile, &looks[i], reference,
+        if (cache && cache->has(i)) reference = [&, i](int y) { return cache->row(i, tile.x0, y); };
+        rows.errors(tile, &exposures[i], reference,
                     [&](int y, const float* row) { keepLargest(row, &errors.at(tile.x0, y), tile.width()); });
     }
 }
@@ -292,22 +293,22 @@ void tileErrors(TileRows& rows, const Tile& tile, const std::vector<FlipLook>& l
 }  // namespace
 
 FilteredReference::FilteredReference(const ImageRows& reference, const std::vector<Hole>& holes,
-                                     const FlipFilters& filters, const std::vector<FlipLook>& looks,
+                                     const FlipFilters& filters, const std::vector<FlipExposure>& exposures,
                                      std::size_t max_bytes)
     : width_(size(reference.width)), height_(size(reference.height)) {
     const std::size_t floats = planes * reference.pixels();
-    looks_.resize(std::min(looks.size(), max_bytes / (floats * sizeof(float))));
-    for (auto& look : looks_) look.resize(floats);
+    exposures_.resize(std::min(exposures.size(), max_bytes / (floats * sizeof(float))));
+    for (auto& exposure : exposures_) exposure.resize(floats);
     const FlipPair pair{reference, reference, holes};
     const std::vector<Tile> tiles = tilesOf(reference);
     tbb::enumerable_thread_specific<TileRows> rows([&] { return TileRows(pair, filters); });
-    tbb::parallel_for(std::size_t{0}, looks_.size() * tiles.size(), [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, exposures_.size() * tiles.size(), [&](std::size_t i) {
         const Tile& tile = tiles[i % tiles.size()];
-        const std::size_t look = i / tiles.size();
-        rows.local().referenceRows(tile, looks[look], [&](int y, const ComparableRow& row) {
+        const std::size_t exposure = i / tiles.size();
+        rows.local().referenceRows(tile, exposures[exposure], [&](int y, const ComparableRow& row) {
             const float* from[planes] = {row.lightness, row.a, row.b, row.edge, row.point};
             for (std::size_t plane = 0; plane < planes; ++plane)
-                std::copy_n(from[plane], tile.width(), looks_[look].data() + at(plane, tile.x0, y));
+                std::copy_n(from[plane], tile.width(), exposures_[exposure].data() + at(plane, tile.x0, y));
         });
     });
 }
@@ -316,18 +317,18 @@ std::size_t FilteredReference::at(std::size_t plane, int x, int y) const {
     return (plane * height_ + size(y)) * width_ + size(x);
 }
 
-ComparableRow FilteredReference::row(std::size_t look, int x, int y) const {
-    const float* of = looks_[look].data();
+ComparableRow FilteredReference::row(std::size_t exposure, int x, int y) const {
+    const float* of = exposures_[exposure].data();
     return {of + at(0, x, y), of + at(1, x, y), of + at(2, x, y), of + at(3, x, y), of + at(4, x, y)};
 }
 
-void flipErrorMap(const FlipPair& pair, const FlipFilters& filters, const std::vector<FlipLook>& looks,
-                  Image& errors, const FilteredReference* kept) {
+void flipErrorMap(const FlipPair& pair, const FlipFilters& filters,
+                  const std::vector<FlipExposure>& exposures, Image& errors, const FilteredReference* cache) {
     errors = Image(pair.reference.width, pair.reference.height, 1);
     const std::vector<Tile> tiles = tilesOf(errors);
     tbb::enumerable_thread_specific<TileRows> rows([&] { return TileRows(pair, filters); });
     tbb::parallel_for(std::size_t{0}, tiles.size(),
-                      [&](std::size_t i) { tileErrors(rows.local(), tiles[i], looks, errors, kept); });
+                      [&](std::size_t i) { tileErrors(rows.local(), tiles[i], exposures, errors, cache); });
 }
 
 }  // namespace diptych

@@ -24,7 +24,7 @@ struct FlipPair {
 };
 
 // One exposure of a linear pair: values are multiplied by `scale` and tone mapped.
-struct FlipLook {
+struct FlipExposure {
     float scale;
     ToneMapper mapper;
 };
@@ -35,22 +35,23 @@ class FilteredReference {
 public:
     // `holes`: W x H or empty; must be those of the pairs that use it.
     FilteredReference(const ImageRows& reference, const std::vector<Hole>& holes, const FlipFilters& filters,
-                      const std::vector<FlipLook>& looks, std::size_t max_bytes);
-    bool keeps(std::size_t look) const { return look < looks_.size(); }
-    // Row y from column x on, for a cached look.
-    ComparableRow row(std::size_t look, int x, int y) const;
+                      const std::vector<FlipExposure>& exposures, std::size_t max_bytes);
+    bool has(std::size_t exposure) const { return exposure < exposures_.size(); }
+    // Row y from column x on, for a cached exposure.
+    ComparableRow row(std::size_t exposure, int x, int y) const;
 
 private:
     std::size_t at(std::size_t plane, int x, int y) const;
 
     std::size_t width_, height_;
-    std::vector<std::vector<float>> looks_;  // planes of a ComparableRow, in its order
+    std::vector<std::vector<float>> exposures_;  // planes of a ComparableRow, in its order
 };
 
-// Errors of a pair of sRGB images (no looks), or the largest over the looks of a linear pair. Holes have
-// error 0 (same) or 1 (different). `kept`: cache for the pair's reference, holes and looks; it does not
+// Errors of a pair of sRGB images (no exposures), or the largest over those of a linear pair. Holes have
+// error 0 (same) or 1 (different). `cache`: for the pair's reference, holes and exposures; it does not
 // change the result.
-void flipErrorMap(const FlipPair& pair, const FlipFilters& filters, const std::vector<FlipLook>& looks,
-                  Image& errors, const FilteredReference* kept = nullptr);
+void flipErrorMap(const FlipPair& pair, const FlipFilters& filters,
+                  const std::vector<FlipExposure>& exposures, Image& errors,
+                  const FilteredReference* cache = nullptr);
 
 }  // namespace diptych

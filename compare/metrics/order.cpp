@@ -71,8 +71,8 @@ Order::Order(std::span<const float> values)
       }) {}
 
 std::vector<Order::Bin> Order::within(const std::vector<std::size_t>& wanted) const {
-    std::vector<std::uint8_t> place(bins);  // index in `wanted` + 1; 0: not wanted
-    for (std::size_t i = 0; i < wanted.size(); ++i) place[wanted[i]] = static_cast<std::uint8_t>(i + 1);
+    std::vector<std::uint8_t> slot(bins);  // index in `wanted` + 1; 0: not wanted
+    for (std::size_t i = 0; i < wanted.size(); ++i) slot[wanted[i]] = static_cast<std::uint8_t>(i + 1);
     const std::size_t parts = partsOf(length_);
     std::vector<std::vector<Bin>> found(parts);
     tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
@@ -80,7 +80,7 @@ std::vector<Order::Bin> Order::within(const std::vector<std::size_t>& wanted) co
         low.assign(wanted.size(), Bin(std::size_t{1} << 16));
         values_(length_ * i / parts, length_ * (i + 1) / parts, [&](std::span<const float> piece) {
             for (const float v : piece)
-                if (const std::uint8_t at = isThere(v) ? place[keyOf(v) >> 16] : 0; at > 0)
+                if (const std::uint8_t at = isThere(v) ? slot[keyOf(v) >> 16] : 0; at > 0)
                     ++low[at - 1u][keyOf(v) & 0xffffu];
         });
     });

@@ -58,12 +58,12 @@ inline double angle(const float* a, const float* b) {
 // Degrees between two lines, each along a finite 3-vector of either sign: 0 to 90; 0 between two zero
 // vectors, 90 if one is zero.
 inline double lineAngle(const float* a, const float* b) {
-    const std::array<float, 3> turned{-b[0], -b[1], -b[2]};
-    return std::min({angle(a, b), angle(a, turned.data()), 90.0});
+    const std::array<float, 3> reversed{-b[0], -b[1], -b[2]};
+    return std::min({angle(a, b), angle(a, reversed.data()), 90.0});
 }
 
 // Difference of the lengths of two finite 3-vectors.
-inline double lengthsApart(const float* a, const float* b) {
+inline double lengthDifference(const float* a, const float* b) {
     const auto length = [](const float* v) { return std::hypot(double{v[0]}, double{v[1]}, double{v[2]}); };
     return std::abs(length(a) - length(b));
 }

@@ -162,7 +162,7 @@ void StandardPass::add(int y, Row& row, BandSums& sums) const {
         const double degrees = lines_ ? lineAngle(t, r) : angle(t, r);
         sums.angles += degrees;
         sums.maxDegrees = std::max(sums.maxDegrees, degrees);
-        sums.maxLength = std::max(sums.maxLength, lengthsApart(t, r));
+        sums.maxLength = std::max(sums.maxLength, lengthDifference(t, r));
     }
 }
 

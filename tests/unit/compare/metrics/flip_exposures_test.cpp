@@ -16,15 +16,15 @@ TEST(FlipExposures, MapTheBrightestAndTheMedianToTheTarget) {
     Image image(3, 1, 3);
     for (int x = 0; x < 3; ++x) set(image, x, 0, std::exp2(2.0f * static_cast<float>(x)));
     for (const ToneMapper mapper : {ToneMapper::aces, ToneMapper::reinhard, ToneMapper::hable}) {
-        const double x = whereCurveReaches(mapper, 0.85);
+        const double x = inverseToneCurve(mapper, 0.85);
         const ToneCurve k = toneCurve(mapper);
         EXPECT_NEAR((k.k0 * x * x + k.k1 * x) / (k.k2 * x * x + k.k3 * x + k.k4), 0.85, 1e-6);
         const ExposureRange range = exposureRange(image, mapper);
         EXPECT_NEAR(range.start, std::log2(x / 16), 1e-6) << "a float's luminance";
         EXPECT_NEAR(range.stop, std::log2(x / 4), 1e-6);
     }
-    EXPECT_NEAR(whereCurveReaches(ToneMapper::reinhard, 0.85), 0.85 / 0.15, 1e-6);
-    EXPECT_NEAR(whereCurveReaches(ToneMapper::hable, 1), 5.6, 1e-5) << "white at 11.2, of twice x";
+    EXPECT_NEAR(inverseToneCurve(ToneMapper::reinhard, 0.85), 0.85 / 0.15, 1e-6);
+    EXPECT_NEAR(inverseToneCurve(ToneMapper::hable, 1), 5.6, 1e-5) << "white at 11.2, of twice x";
 }
 
 TEST(FlipExposures, AreFiniteWhereMostIsBlack) {
@@ -32,7 +32,7 @@ TEST(FlipExposures, AreFiniteWhereMostIsBlack) {
     for (int x = 0; x < 5; ++x) set(image, x, 3, std::exp2(static_cast<float>(x)));
     set(image, 7, 7, nan);
     set(image, 8, 7, -4.0f);
-    const double x = whereCurveReaches(ToneMapper::aces, 0.85);
+    const double x = inverseToneCurve(ToneMapper::aces, 0.85);
     const ExposureRange range = exposureRange(image, ToneMapper::aces);
     EXPECT_NEAR(range.start, std::log2(x / 16), 1e-6);
     EXPECT_NEAR(range.stop, std::log2(x / 4), 1e-6) << "the median of 1, 2, 4, 8, 16";
