@@ -32,7 +32,7 @@ bool disjoint(const Bounds& a, const Bounds& b) {
 
 }  // namespace
 
-void MaterialPixels::Seen::add(std::uint64_t count, const PixelBox& where) {
+void MaterialPixels::Visible::add(std::uint64_t count, const PixelBox& where) {
     pixels += count;
     include(box, where);
 }
@@ -66,7 +66,7 @@ MaterialPixels::MaterialPixels(const Image& ids, const Image* positions)
                             std::swap(*known, here.back());
                     }
                     Entry& entry = here.back();
-                    entry.seen.add(1, {u, v, u + 1, v + 1});
+                    entry.visible.add(1, {u, v, u + 1, v + 1});
                     const glm::dvec3 p = positionAt(u, v);
                     entry.positions.min = glm::min(entry.positions.min, p);
                     entry.positions.max = glm::max(entry.positions.max, p);
@@ -78,24 +78,24 @@ MaterialPixels::MaterialPixels(const Image& ids, const Image* positions)
             const auto max = static_cast<std::size_t>(here.back().material) + 1;
             if (extents_.size() < max) extents_.resize(max);
             for (const Entry& entry : here)
-                include(extents_[static_cast<std::size_t>(entry.material)], entry.seen.box);
+                include(extents_[static_cast<std::size_t>(entry.material)], entry.visible.box);
         }
     first_.push_back(entries_.size());
 }
 
-void MaterialPixels::scan(int material, const PixelBox& box, const Bounds& reach, Seen& seen) const {
+void MaterialPixels::scan(int material, const PixelBox& box, const Bounds& bounds, Visible& visible) const {
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = box.x0; x < box.x1; ++x)
-            if (at(x, y) == material && (!positions_ || contains(reach, positionAt(x, y))))
-                seen.add(1, {x, y, x + 1, y + 1});
+            if (at(x, y) == material && (!positions_ || contains(bounds, positionAt(x, y))))
+                visible.add(1, {x, y, x + 1, y + 1});
 }
 
-MaterialPixels::Seen MaterialPixels::within(int material, const PixelBox& allowed,
-                                            const Bounds& reach) const {
-    Seen seen;
-    if (material < 0 || static_cast<std::size_t>(material) >= extents_.size()) return seen;
+MaterialPixels::Visible MaterialPixels::within(int material, const PixelBox& allowed,
+                                               const Bounds& bounds) const {
+    Visible visible;
+    if (material < 0 || static_cast<std::size_t>(material) >= extents_.size()) return visible;
     const PixelBox box = common(allowed, extents_[static_cast<std::size_t>(material)]);
-    if (box.empty()) return seen;
+    if (box.empty()) return visible;
     for (int row = box.y0 / tile; row * tile < box.y1; ++row)
         for (int column = box.x0 / tile; column * tile < box.x1; ++column) {
             const auto t = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
@@ -104,14 +104,14 @@ MaterialPixels::Seen MaterialPixels::within(int material, const PixelBox& allowe
             const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(first_[t + 1]);
             const auto entry = std::ranges::lower_bound(begin, end, material, {}, &Entry::material);
             if (entry == end || entry->material != material) continue;
-            const PixelBox part = common(box, entry->seen.box);
-            if (positions_ && disjoint(reach, entry->positions)) continue;
-            if (part == entry->seen.box && (!positions_ || contains(reach, entry->positions)))
-                seen.add(entry->seen.pixels, part);
+            const PixelBox part = common(box, entry->visible.box);
+            if (positions_ && disjoint(bounds, entry->positions)) continue;
+            if (part == entry->visible.box && (!positions_ || contains(bounds, entry->positions)))
+                visible.add(entry->visible.pixels, part);
             else
-                scan(material, part, reach, seen);
+                scan(material, part, bounds, visible);
         }
-    return seen;
+    return visible;
 }
 
 }  // namespace diptych

@@ -18,26 +18,26 @@ public:
     // or nullptr. Both must outlive the object.
     MaterialPixels(const Image& ids, const Image* positions);
 
-    struct Seen {
+    struct Visible {
         std::uint64_t pixels = 0;
         PixelBox box;  // bounding box
         void add(std::uint64_t count, const PixelBox& where);
     };
-    // Pixels of `material` in `box`, with positions inside `reach` if known. Visits only pixels in the
+    // Pixels of `material` in `box`, with positions inside `bounds` if known. Visits only pixels in the
     // box, and uses whole tiles by their summaries.
-    Seen within(int material, const PixelBox& box, const Bounds& reach) const;
+    Visible within(int material, const PixelBox& box, const Bounds& bounds) const;
 
 private:
     struct Entry {
         int material;
-        Seen seen;
+        Visible visible;
         Bounds positions;
     };
     static constexpr int tile = 16;  // pixels, width and height
 
     int at(int x, int y) const;
     glm::dvec3 positionAt(int x, int y) const;
-    void scan(int material, const PixelBox& box, const Bounds& reach, Seen& seen) const;
+    void scan(int material, const PixelBox& box, const Bounds& bounds, Visible& visible) const;
 
     const Image& ids_;
     const Image* positions_;

@@ -42,13 +42,13 @@ public:
           height_(view.height) {}
 
     // Pixel box, and bounds relative to the camera, world axes, m.
-    struct Place {
+    struct ProjectedBounds {
         PixelBox box;
-        Bounds reach;
+        Bounds bounds;
     };
-    Place placeOf(const glm::dmat4& worldFromObject, const Bounds& bounds) const {
-        Place place;
-        if (bounds.empty()) return place;
+    ProjectedBounds project(const glm::dmat4& worldFromObject, const Bounds& bounds) const {
+        ProjectedBounds projected;
+        if (bounds.empty()) return projected;
         glm::dmat4 viewedFromObject = worldFromObject;
         viewedFromObject[3] -= glm::dvec4(eye_, 0);
         std::array<glm::dvec4, 8> corners;
@@ -56,15 +56,15 @@ public:
             const glm::dvec4 p = viewedFromObject * glm::dvec4(i & 1 ? bounds.max.x : bounds.min.x,
                                                                i & 2 ? bounds.max.y : bounds.min.y,
                                                                i & 4 ? bounds.max.z : bounds.min.z, 1);
-            place.reach.min = glm::min(place.reach.min, glm::dvec3(p));
-            place.reach.max = glm::max(place.reach.max, glm::dvec3(p));
+            projected.bounds.min = glm::min(projected.bounds.min, glm::dvec3(p));
+            projected.bounds.max = glm::max(projected.bounds.max, glm::dvec3(p));
             corners[i] = clip_from_world_ * p;
         }
         // Expand by 1e-3 of the largest coordinate: positions are reconstructed from float32 depth.
-        const glm::dvec3 farthest = glm::max(glm::abs(place.reach.min), glm::abs(place.reach.max));
+        const glm::dvec3 farthest = glm::max(glm::abs(projected.bounds.min), glm::abs(projected.bounds.max));
         const double slack = 1e-3 * std::max({farthest.x, farthest.y, farthest.z});
-        place.reach.min -= slack;
-        place.reach.max += slack;
+        projected.bounds.min -= slack;
+        projected.bounds.max += slack;
         // The near and far planes are parallel, so all corners of the clipped box lie on its edges.
         Extent extent;
         for (unsigned i = 0; i < 8; ++i)
@@ -72,9 +72,9 @@ public:
                 if (!(i & axis)) addEdge(corners[i], corners[i | axis], extent);
         // Shrink by 1e-6 pixel, so that rounding adds no row. No pixel centre is lost.
         const glm::dvec2 low = glm::floor(extent.low + 1e-6), high = glm::ceil(extent.high - 1e-6);
-        place.box = {pixel(low.x, width_), pixel(low.y, height_), pixel(high.x, width_),
-                     pixel(high.y, height_)};
-        return place;
+        projected.box = {pixel(low.x, width_), pixel(low.y, height_), pixel(high.x, width_),
+                         pixel(high.y, height_)};
+        return projected;
     }
 
 private:
@@ -152,14 +152,14 @@ struct Candidate {
     }
 };
 
-// Keeps the best checksShown candidates.
+// Keeps the best maxChecks candidates.
 struct Chosen {
     std::uint64_t found = 0;
     std::vector<Candidate> best;  // heap, worst on top
 
     void add(const Candidate& candidate) {
         ++found;
-        if (best.size() == checksShown) {
+        if (best.size() == maxChecks) {
             if (!(candidate < best.front())) return;
             std::ranges::pop_heap(best, std::less<>());
             best.pop_back();
@@ -186,7 +186,7 @@ public:
     }
 
     std::vector<FeatureChecks> choose() {
-        for (std::size_t i = 0; i < pose_.instances.size(); ++i) look(i);
+        for (std::size_t i = 0; i < pose_.instances.size(); ++i) consider(i);
         std::vector<FeatureChecks> result;
         CheckSentences sentences(scene_, materialsOf(scene_, pose_));
         for (std::size_t f = 0; f < checkFeatureCount; ++f) {
@@ -207,45 +207,45 @@ public:
     }
 
 private:
-    void look(std::size_t index) {
+    void consider(std::size_t index) {
         const Instance& instance = pose_.instances[index];
         const auto mesh = static_cast<std::size_t>(instance.mesh),
-                   number = static_cast<std::size_t>(instance.primitive);
-        const Primitive& primitive = scene_.meshes[mesh].primitives[number];
+                   primitive_index = static_cast<std::size_t>(instance.primitive);
+        const Primitive& primitive = scene_.meshes[mesh].primitives[primitive_index];
         if (primitive.indices.empty()) return;
-        PrimitiveChecks& known = primitives_[mesh][number];
+        PrimitiveChecks& known = primitives_[mesh][primitive_index];
         if (!known.known)
             known = {true, featuresOf(scene_, materialsOf(scene_, pose_), primitive), boundsOf(primitive)};
         const CheckFeatures features = featuresOf(scene_, instance, known.features);
         if (features == 0) return;
-        const Projection::Place place = placeOf(instance, known.bounds);
-        Candidate candidate{0, index, place.box};
-        if (place.box.empty() || !isSeen(primitive.material, place, candidate)) return;
+        const Projection::ProjectedBounds projected = project(instance, known.bounds);
+        Candidate candidate{0, index, projected.box};
+        if (projected.box.empty() || !isVisible(primitive.material, projected, candidate)) return;
         for (std::size_t f = 0; f < checkFeatureCount; ++f)
             if (features & bitOf(static_cast<CheckFeature>(f))) chosen_[f].add(candidate);
     }
 
     // `rest`: bounds of the primitive, object space.
-    Projection::Place placeOf(const Instance& instance, const Bounds& rest) const {
-        if (instance.box < 0) return projection_.placeOf(instance.world_from_object, rest);
+    Projection::ProjectedBounds project(const Instance& instance, const Bounds& rest) const {
+        if (instance.box < 0) return projection_.project(instance.world_from_object, rest);
         const PosedBox& box = pose_.boxes[static_cast<std::size_t>(instance.box)];
         Bounds posed;
         posed.min = box.origin + box.min;
         posed.max = box.origin + box.max;
-        return projection_.placeOf(glm::dmat4(1), posed);
+        return projection_.project(glm::dmat4(1), posed);
     }
 
-    bool isSeen(int material, const Projection::Place& place, Candidate& candidate) const {
-        const PixelBox& box = place.box;
+    bool isVisible(int material, const Projection::ProjectedBounds& projected, Candidate& candidate) const {
+        const PixelBox& box = projected.box;
         if (!pixels_) {
             candidate.pixels =
                 static_cast<std::uint64_t>(box.x1 - box.x0) * static_cast<std::uint64_t>(box.y1 - box.y0);
             return true;
         }
-        const MaterialPixels::Seen seen = pixels_->within(material, box, place.reach);
-        candidate.pixels = seen.pixels;
-        candidate.box = seen.box;
-        return seen.pixels > 0;
+        const MaterialPixels::Visible visible = pixels_->within(material, box, projected.bounds);
+        candidate.pixels = visible.pixels;
+        candidate.box = visible.box;
+        return visible.pixels > 0;
     }
 
     const Scene& scene_;

@@ -33,10 +33,10 @@ struct VisualCheck {
 // Inspections of one feature, largest first.
 struct FeatureChecks {
     std::string_view feature;
-    std::uint64_t found = 0;  // in view; lists at most checksShown of them
+    std::uint64_t found = 0;  // in view; lists at most maxChecks of them
     std::vector<VisualCheck> checks;
 };
-inline constexpr std::size_t checksShown = 24;
+inline constexpr std::size_t maxChecks = 24;
 
 // One inspection per feature of a visible instance. Projects the instance's bounds, clipped at the near
 // and far planes, to a pixel box. Counts pixels in the box with the instance's material in `materials`

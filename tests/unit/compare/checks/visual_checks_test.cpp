@@ -116,7 +116,7 @@ TEST(VisualChecks, MaterialPixelsAreWhatIsThere) {
         const PixelBox box{x, y, x + 1 + static_cast<int>(random() % static_cast<unsigned>(53 - x)),
                            y + 1 + static_cast<int>(random() % static_cast<unsigned>(37 - y))};
         const int material = static_cast<int>(random() % 4);
-        MaterialPixels::Seen all, near;
+        MaterialPixels::Visible all, near;
         for (int v = box.y0; v < box.y1; ++v)
             for (int u = box.x0; u < box.x1; ++u) {
                 if (ids.at(u, v) != static_cast<float>(material)) continue;
@@ -124,8 +124,8 @@ TEST(VisualChecks, MaterialPixelsAreWhatIsThere) {
                 const float px = positions.at(u, v, 0), pz = positions.at(u, v, 2);
                 if (px >= 1 && px <= 3 && pz <= 2) near.add(1, {u, v, u + 1, v + 1});
             }
-        const MaterialPixels::Seen a = byMaterial.within(material, box, reach),
-                                   b = byBoth.within(material, box, reach);
+        const MaterialPixels::Visible a = byMaterial.within(material, box, reach),
+                                      b = byBoth.within(material, box, reach);
         ASSERT_EQ(a.pixels, all.pixels);
         ASSERT_EQ(a.box, all.box);
         ASSERT_EQ(b.pixels, near.pixels);
@@ -147,7 +147,7 @@ TEST(VisualChecks, TheLargestComeFirstAndAllAreCounted) {
     const std::vector<FeatureChecks> features = checksIn(scene, viewOf());
     ASSERT_EQ(features.size(), 1u);
     EXPECT_EQ(features[0].found, 30u);
-    ASSERT_EQ(features[0].checks.size(), checksShown);
+    ASSERT_EQ(features[0].checks.size(), maxChecks);
     EXPECT_EQ(features[0].checks[0].name, "node 10");
     EXPECT_EQ(features[0].checks[1].name, "node 9");
     EXPECT_EQ(features[0].checks[2].name, "node 11");
@@ -161,7 +161,7 @@ TEST(VisualChecks, ManyInstancesLeaveFewChecks) {
     const Image ids(200, 100, 1, 0);
     const std::vector<FeatureChecks> features = visualChecksOf(scene, pose, viewOf(), &ids, nullptr);
     EXPECT_EQ(features.at(0).found, 100'000u);
-    EXPECT_EQ(features.at(0).checks.size(), checksShown);
+    EXPECT_EQ(features.at(0).checks.size(), maxChecks);
 }
 
 // ---- names -------------------------------------------------------------------------------------------
