@@ -26,7 +26,7 @@ std::string wordsOf(const QuantityAudit& audit, const Step& step, std::size_t se
 
 }  // namespace
 
-std::string auditPlot(const QuantityAudit& audit, PlotTarget place) {
+std::string auditPlot(const QuantityAudit& audit, PlotTarget target) {
     const Quantity& quantity = *audit.quantity;
     PlotPanel panel{
         .across = {fmt::format("{}{}{}", quantity.name, quantity.unit.empty() ? "" : ", ", quantity.unit)},
@@ -42,7 +42,7 @@ std::string auditPlot(const QuantityAudit& audit, PlotTarget place) {
     for (const std::size_t limit : {std::size_t{0}, requiredCriterion})
         panel.limits.push_back({.y = criteria[limit].limit, .name = std::string(criteria[limit].title)});
     panel.limits.push_back({.x = audit.original, .name = "magnitude in the scene", .strict = false});
-    return svgOf({.title = fmt::format("error over {}", quantity.name), .panels = {panel}}, place);
+    return svgOf({.title = fmt::format("error over {}", quantity.name), .panels = {panel}}, target);
 }
 
 }  // namespace diptych::audit

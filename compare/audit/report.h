@@ -45,7 +45,7 @@ std::vector<output::Block> closingOf(const Audit& audit);
 output::Table stepTable(const Audit& audit);
 // Errors of every series over the magnitude, both axes logarithmic. Errors below 1e-8, where float32
 // rounds, are at the bottom; infinite errors at the top; magnitude 0 at the left.
-std::string auditPlot(const QuantityAudit& audit, PlotTarget place);
+std::string auditPlot(const QuantityAudit& audit, PlotTarget target);
 
 nlohmann::ordered_json toJson(const Audit& audit);
 nlohmann::ordered_json toJson(const Step& step);

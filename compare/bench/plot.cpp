@@ -79,11 +79,11 @@ Plot layersPlot(const Bench& bench) {
                 for (std::size_t way = 0; way < layerWays.size(); ++way)
                     if (const BenchRow* const timed = row.ways.at(way))
                         panel.pointsOf(layerWays[way].name(), layerWays[way].path())
-                            .push_back({static_cast<double>(panel.across.places.size()),
+                            .push_back({static_cast<double>(panel.across.categories.size()),
                                         (*timed)[Measure::ms],
                                         fmt::format("{}, {}: {} ms", layerWays[way].name(),
                                                     coverName(row.cover), describeTime(*timed))});
-                panel.across.places.push_back(fmt::format("{}", row.cover.percent));
+                panel.across.categories.push_back(fmt::format("{}", row.cover.percent));
             }
             plot.panels.push_back(std::move(panel));
         }
@@ -117,10 +117,10 @@ Plot barsPlot(const Bench& bench, const std::vector<Size>& sizes) {
         for (const BenchRow& row : bench.rows) {
             if (row.settings.size != size) continue;
             const std::string label = row.label();
-            const PlotRange up = barAt(static_cast<double>(panel.up.places.size()));
+            const PlotRange up = barAt(static_cast<double>(panel.up.categories.size()));
             panel.up.name =
                 fmt::format("{}x{}, {}, {}", size.width, size.height, row.lightsText(), bench.scene);
-            panel.up.places.push_back(fmt::format("{}: {} ms", label, msText(row[Measure::ms])));
+            panel.up.categories.push_back(fmt::format("{}: {} ms", label, msText(row[Measure::ms])));
             double from = 0;
             for (const PassTime& pass : row.passes) {
                 const auto part =
@@ -144,16 +144,16 @@ Plot barsPlot(const Bench& bench, const std::vector<Size>& sizes) {
 
 }  // namespace
 
-std::string benchPlot(const Bench& bench, PlotTarget place) {
-    if (bench.options.table == BenchTable::growth) return svgOf(growthPlot(bench), place);
-    if (bench.options.table == BenchTable::layers) return svgOf(layersPlot(bench), place);
+std::string benchPlot(const Bench& bench, PlotTarget target) {
+    if (bench.options.table == BenchTable::growth) return svgOf(growthPlot(bench), target);
+    if (bench.options.table == BenchTable::layers) return svgOf(layersPlot(bench), target);
     std::vector<Size> sizes;
     std::set<double> counts;
     for (const BenchRow& row : bench.rows) {
         if (std::ranges::count(sizes, row.settings.size) == 0) sizes.push_back(row.settings.size);
         counts.insert(row[Measure::lights]);
     }
-    return svgOf(counts.size() > 1 ? modesPlot(bench, sizes) : barsPlot(bench, sizes), place);
+    return svgOf(counts.size() > 1 ? modesPlot(bench, sizes) : barsPlot(bench, sizes), target);
 }
 
 }  // namespace diptych::bench

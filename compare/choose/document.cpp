@@ -253,7 +253,7 @@ double endOf(const Candidate& candidate, double TimeRatio::*end) {
 
 // SVG of error over time for all judged and timed candidates. Shows time intervals of raced candidates, the
 // budget and the Pareto front. Both axes are logarithmic; errors of 0 and infinity get their own lanes.
-std::string plotOf(const ChoiceReport& report, PlotTarget place) {
+std::string plotOf(const ChoiceReport& report, PlotTarget target) {
     const SettingsChoice& choice = report.choice;
     const std::string_view metric = titleOf(report.budget.metric);
     PlotPanel panel{.across = {"time of a frame, ms"},
@@ -289,7 +289,7 @@ std::string plotOf(const ChoiceReport& report, PlotTarget place) {
     return svgOf({.title = fmt::format("{} over time of the measured candidates, {}", metric, report.scene),
                   .panels = {panel},
                   .interval = interval},
-                 place);
+                 target);
 }
 
 }  // namespace

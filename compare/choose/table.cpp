@@ -34,7 +34,7 @@ constexpr std::pair<const char*, const char*> usualChanges[] = {
     {"lighting", "compute"}};
 
 // Index in the list, from 1; past its end if it is not there.
-std::ptrdiff_t placeOf(const Change& change) {
+std::ptrdiff_t tableIndexOf(const Change& change) {
     const auto* const found = std::ranges::find_if(usualChanges, [&](const auto& usual) {
         const std::string values = fmt::format(",{},", usual.second);
         return change.option == usual.first &&
@@ -56,18 +56,18 @@ std::vector<Change> changesBetween(const Settings& from, const Settings& to) {
 std::vector<Settings> tableOf(std::span<const Settings> candidates) {
     if (candidates.size() <= maxInTable) return {candidates.begin(), candidates.end()};
     std::map<Path, const Settings*> firsts;
-    std::vector<std::pair<std::ptrdiff_t, const Settings*>> placed;
+    std::vector<std::pair<std::ptrdiff_t, const Settings*>> indexed;
     for (const Settings& candidate : candidates) {
         const Settings& first = *firsts.try_emplace(candidate.path, &candidate).first->second;
         const std::vector<Change> changes = changesBetween(first, candidate);
         if (changes.size() > 1) continue;
-        const std::ptrdiff_t index = changes.empty() ? 0 : placeOf(changes.front());
-        if (index <= std::ssize(usualChanges)) placed.emplace_back(index, &candidate);
+        const std::ptrdiff_t index = changes.empty() ? 0 : tableIndexOf(changes.front());
+        if (index <= std::ssize(usualChanges)) indexed.emplace_back(index, &candidate);
     }
-    std::ranges::stable_sort(placed, {}, &std::pair<std::ptrdiff_t, const Settings*>::first);
-    placed.resize(std::min(placed.size(), maxInTable));
+    std::ranges::stable_sort(indexed, {}, &std::pair<std::ptrdiff_t, const Settings*>::first);
+    indexed.resize(std::min(indexed.size(), maxInTable));
     std::vector<Settings> table;
-    for (const auto& [index, candidate] : placed) table.push_back(*candidate);
+    for (const auto& [index, candidate] : indexed) table.push_back(*candidate);
     return table;
 }
 

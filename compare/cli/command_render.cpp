@@ -87,22 +87,22 @@ std::vector<std::filesystem::path> writeAll(const RenderLine& options, const Ima
     const auto earlier = [&] { return earlierIn(output, frames.size(), options.force); };
     OutputFolder folder(output.path);
     std::vector<std::string> files;
-    std::vector<std::filesystem::path> places;
+    std::vector<std::filesystem::path> targets;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         progress.at(static_cast<double>(i) / static_cast<double>(frames.size()), "write");
         const std::string inner = frames.size() > 1 ? std::to_string(i + 1) : "";
         if (!inner.empty()) folder.makeFolders({inner + "/lit.exr"});
         for (const std::string& name : writeFrameFolder(frames[i], device, folder / inner, shown, image))
             files.push_back(inner.empty() ? name : inner + "/" + name);
-        places.push_back(inner.empty() ? output.path : output.path / inner);
-        result["frames"][i]["file"] = places.back().string();
+        targets.push_back(inner.empty() ? output.path : output.path / inner);
+        result["frames"][i]["file"] = targets.back().string();
     }
     if (frames.size() > 1) {
         writeFile(folder / several_manifest, jsonText(result) + "\n");
         files.emplace_back(several_manifest);
     }
     folder.put(files, earlier);
-    return places;
+    return targets;
 }
 
 int runRender(const RenderLine& options) {
@@ -136,7 +136,7 @@ int runRender(const RenderLine& options) {
         result["frames"].push_back(jsonOf(frame));
         result["frames"].back()["file"] = output.path.string();
     }
-    const std::vector<std::filesystem::path> places =
+    const std::vector<std::filesystem::path> targets =
         writeAll(options, image, frames, result, made,
                  Stage(progress, output.path.string()).part(drawnFraction(renderOptions(options)), 1));
     kept.remove();
@@ -144,7 +144,7 @@ int runRender(const RenderLine& options) {
     noteLeftByOthers(options, kept);
     for (std::size_t i = 0; i < frames.size() && !options.json && !options.quiet; ++i) {
         const Frame& frame = frames[i];
-        printOut("{}: {}, {}x{}{}\n", places[i].string(), frame.scene, frame.settings.size.width,
+        printOut("{}: {}, {}x{}{}\n", targets[i].string(), frame.scene, frame.settings.size.width,
                  frame.settings.size.height,
                  frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
         if (output.kind != OutputKind::exr) printOut("  picture: {}\n", exposureLine(frame, image));

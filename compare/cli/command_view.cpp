@@ -46,7 +46,7 @@ void describeView(CLI::App& app, ViewLine& options) {
                        "--update-baseline", "--explain", "--force", "--json", "--strict", "--allow-empty"});
 }
 
-using Place = JsonAt<nlohmann::json>;
+using JsonValue = JsonAt<nlohmann::json>;
 
 // One comparison of a report, and one of its channels.
 struct ReportedView {
@@ -57,26 +57,26 @@ struct ReportedView {
 
 constexpr int max_side = 65536;  // largest image side, pixels
 
-bool fails(const Place& of) {
+bool fails(const JsonValue& of) {
     return of.at("verdict").text() == "fail";
 }
 
-bool isOf(const Place& channel, Channel shown) {
+bool isOf(const JsonValue& channel, Channel shown) {
     return channel.at("number").json() == channelNumber(shown);
 }
 
 // Whether the comparison fails; with --debug, whether that channel fails.
-bool failsHere(const Place& comparison, const ViewLine& options) {
+bool failsHere(const JsonValue& comparison, const ViewLine& options) {
     if (!options.debug_requested) return fails(comparison);
-    return std::ranges::any_of(comparison.at("channels").each(), [&](const Place& channel) {
+    return std::ranges::any_of(comparison.at("channels").each(), [&](const JsonValue& channel) {
         return isOf(channel, options.shown) && fails(channel);
     });
 }
 
 // The first failing comparison, else the first. Considers only the given scene, if any.
-Place chosenComparison(const Place& comparisons, const ViewLine& options) {
-    std::optional<Place> first;
-    for (const Place& comparison : comparisons.each()) {
+JsonValue chosenComparison(const JsonValue& comparisons, const ViewLine& options) {
+    std::optional<JsonValue> first;
+    for (const JsonValue& comparison : comparisons.each()) {
         if (options.scene_requested && comparison.at("scene").text() != options.scenes.front()) continue;
         if (!first) first = comparison;
         if (failsHere(comparison, options)) return comparison;
@@ -88,9 +88,9 @@ Place chosenComparison(const Place& comparisons, const ViewLine& options) {
 }
 
 // The channel of --debug, else the first that fails, else lit.
-Place chosenChannel(const Place& channels, const ViewLine& options) {
-    std::optional<Place> best;
-    for (const Place& channel : channels.each()) {
+JsonValue chosenChannel(const JsonValue& channels, const ViewLine& options) {
+    std::optional<JsonValue> best;
+    for (const JsonValue& channel : channels.each()) {
         if (options.debug_requested && isOf(channel, options.shown)) return channel;
         if (fails(channel) && (!best || !fails(*best))) best = channel;
         if (!best && isOf(channel, Channel::lit)) best = channel;
@@ -108,14 +108,14 @@ ReportedView readReport(const ViewLine& options) {
                                                   "number",      "name",  "verdict", "worst_pixel"};
         const nlohmann::json report = parseJson(
             textIn(file, json_bytes), [](int, const std::string& key) { return wanted.contains(key); });
-        const Place comparison = chosenComparison(Place(report).at("comparisons"), options);
-        const Place channel = chosenChannel(comparison.at("channels"), options);
+        const JsonValue comparison = chosenComparison(JsonValue(report).at("comparisons"), options);
+        const JsonValue channel = chosenChannel(comparison.at("channels"), options);
         ReportedView view{
             .command = comparison.at("command").texts(), .channel = channel.at("name").text(), .pixel = {}};
         if (view.command.empty() || view.command.front() != "compare")
             fail("is not a report of compare, which view needs");
         if (!findDebugMode(view.channel)) channel.at("name").fail("is not a channel");
-        if (const Place worst = channel.at("worst_pixel"); worst.json().is_array()) {
+        if (const JsonValue worst = channel.at("worst_pixel"); worst.json().is_array()) {
             const int x = worst[0].whole(-1, max_side), y = worst[1].whole(-1, max_side);
             if (x >= 0 && y >= 0) view.pixel = Pixel{x, y};
         }

@@ -174,27 +174,27 @@ std::vector<Renaming> spelledOut(const ImageFile& file, const Renaming& renaming
 
 // Channels of a renaming as one channel; empty unless the file has all of them.
 std::optional<ImageChannel> renamed(ImageFile& file, const Renaming& renaming) {
-    struct Place {
+    struct Source {
         ImageLayer* layer;
         std::size_t component;
     };
-    std::vector<Place> places;
+    std::vector<Source> sources;
     for (const std::string& wanted : renaming.channels)
         for (ImageLayer& layer : file.layers)
             if (const auto found = std::ranges::find(layer.channels, wanted); found != layer.channels.end()) {
-                places.push_back({&layer, static_cast<std::size_t>(found - layer.channels.begin())});
+                sources.push_back({&layer, static_cast<std::size_t>(found - layer.channels.begin())});
                 break;
             }
-    if (places.size() != renaming.channels.size()) return {};
-    ImageChannel channel{renaming.name, renaming.channels, places[0].layer->sample, {}, {}};
+    if (sources.size() != renaming.channels.size()) return {};
+    ImageChannel channel{renaming.name, renaming.channels, sources[0].layer->sample, {}, {}};
     channel.kind = kindOf(channel.name, channel.channels, channel.type);
-    channel.image = Image(file.width, file.height, static_cast<int>(places.size()));
-    for (std::size_t c = 0; c < places.size(); ++c) {
-        const Image& from = places[c].layer->image;
+    channel.image = Image(file.width, file.height, static_cast<int>(sources.size()));
+    for (std::size_t c = 0; c < sources.size(); ++c) {
+        const Image& from = sources[c].layer->image;
         for (std::size_t i = 0; i < from.pixels(); ++i)
-            channel.image.pixel(i)[c] = from.pixel(i)[places[c].component];
+            channel.image.pixel(i)[c] = from.pixel(i)[sources[c].component];
     }
-    convert(channel, *places[0].layer);
+    convert(channel, *sources[0].layer);
     return channel;
 }
 

@@ -131,21 +131,22 @@ OutputFolder::OutputFolder(const fs::path& folder)
     const FolderLock lock(folder_);
     // Each Temporary removes leftovers of killed programs: first beside the folder, then inside it.
     temporary_ = std::make_unique<Temporary>(beside_.copy(), folder_);
-    if (isThere()) temporary_ = std::make_unique<Temporary>(place_.copy(), folder_);
+    if (isThere()) temporary_ = std::make_unique<Temporary>(destination_.copy(), folder_);
     if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
 }
 
 // Opens the folder once it exists, and holds it.
 bool OutputFolder::isThere() {
     const std::string name = folder_.filename();
-    if (!place_.isOpen() && beside_.has(name)) {
-        place_ = beside_.in(name);
-        place_.hold();
+    if (!destination_.isOpen() && beside_.has(name)) {
+        destination_ = beside_.in(name);
+        destination_.hold();
     }
     struct stat opened {};
-    if (place_.isOpen() && (::fstat(place_.descriptor(), &opened) != 0 || !beside_.has(name, opened)))
+    if (destination_.isOpen() &&
+        (::fstat(destination_.descriptor(), &opened) != 0 || !beside_.has(name, opened)))
         throw std::runtime_error(writingFailed(folder_, ESTALE));  // another one has its name by now
-    return place_.isOpen();
+    return destination_.isOpen();
 }
 
 // Blocks interruptions, which would remove the temporary folder meanwhile.
@@ -160,12 +161,12 @@ void OutputFolder::makeFolders(const std::vector<std::string>& files) const {
 
 // Replaces the folder in one step. Changes nothing and returns false if that is impossible.
 bool OutputFolder::exchange(const std::vector<std::string>& earlier) {
-    if (!holdsOnly(place_, {earlier.begin(), earlier.end()}, {}, temporary_->path().filename()) ||
-        !isReplaceable(place_, temporary_->contents()))
+    if (!holdsOnly(destination_, {earlier.begin(), earlier.end()}, {}, temporary_->path().filename()) ||
+        !isReplaceable(destination_, temporary_->contents()))
         return false;
     const bool beside = temporary_->path().parent_path() == folder_.parent_path();
-    if ((!beside && !temporary_->moveTo(beside_)) || !temporary_->exchange(place_)) return false;
-    rescue(temporary_->contents(), place_, earlier);
+    if ((!beside && !temporary_->moveTo(beside_)) || !temporary_->exchange(destination_)) return false;
+    rescue(temporary_->contents(), destination_, earlier);
     return true;
 }
 
@@ -181,7 +182,7 @@ void OutputFolder::put(const std::vector<std::string>& files,
         return;
     }
     if (exchange(old)) return;
-    if (temporary_->path().parent_path() != folder_ && !temporary_->moveTo(place_))
+    if (temporary_->path().parent_path() != folder_ && !temporary_->moveTo(destination_))
         throw std::runtime_error(writingFailed(folder_, errno));
     moveFiles(folder_, *temporary_, {files, old});
 }

@@ -38,7 +38,7 @@ private:
     bool exchange(const std::vector<std::string>& earlier);
 
     std::filesystem::path folder_;
-    OpenFolder beside_, place_;  // its parent; the folder itself, once it exists
+    OpenFolder beside_, destination_;  // its parent; the folder itself, once it exists
     std::unique_ptr<Temporary> temporary_;
 };
 

@@ -27,8 +27,8 @@ std::ptrdiff_t namesOf(const std::vector<PlotTick>& ticks) {
 
 Axis::Axis(const PlotAxis& axis, const std::vector<double>& points, const std::vector<double>& others,
            double begin, double end, bool up)
-    : places_(axis.places),
-      logarithmic_(axis.logarithmic && axis.places.empty()),
+    : categories_(axis.categories),
+      logarithmic_(axis.logarithmic && axis.categories.empty()),
       up_(up),
       begin_(begin),
       end_(end) {
@@ -46,8 +46,8 @@ Axis::Axis(const PlotAxis& axis, const std::vector<double>& points, const std::v
         for (const double value : *values)
             if (std::isfinite(value) && (!logarithmic_ || value > 0))  // clamped: ends and ratio stay finite
                 shown.push_back(std::clamp(value, logarithmic_ ? 1e-100 : -1e100, 1e100));
-    if (!places_.empty())
-        shown = {-0.5, static_cast<double>(places_.size()) - 0.5};
+    if (!categories_.empty())
+        shown = {-0.5, static_cast<double>(categories_.size()) - 0.5};
     else if (!logarithmic_)
         shown.push_back(0);
     if (shown.empty()) return;
@@ -98,9 +98,9 @@ void Axis::addDecades(std::vector<PlotTick>& ticks) const {
 
 std::vector<PlotTick> Axis::ticks() const {
     std::vector<PlotTick> ticks;
-    for (std::size_t i = 0; i < places_.size(); ++i) add(ticks, static_cast<double>(i), places_[i]);
+    for (std::size_t i = 0; i < categories_.size(); ++i) add(ticks, static_cast<double>(i), categories_[i]);
     if (logarithmic_) addDecades(ticks);
-    if (places_.empty() && (!logarithmic_ || (namesOf(ticks) < 3 && high_ < 10 * low_))) {
+    if (categories_.empty() && (!logarithmic_ || (namesOf(ticks) < 3 && high_ < 10 * low_))) {
         ticks.clear();
         addEven(ticks);
     }

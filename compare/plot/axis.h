@@ -36,7 +36,7 @@ private:
     void addEven(std::vector<PlotTick>& ticks) const;
     void addDecades(std::vector<PlotTick>& ticks) const;
 
-    const std::vector<std::string> places_;
+    const std::vector<std::string> categories_;
     const bool logarithmic_, up_;
     bool zeros_ = false, infinities_ = false, nans_ = false;  // NaN: with infinities
     const double begin_, end_;

@@ -22,7 +22,7 @@ constexpr double plotWidth = 720, plotLeft = 74, plotRight = plotWidth - 24;
 constexpr double columnGap = 66;                   // columns of panels, for the ticks of the right one
 constexpr double above = 40, below = 56;           // a panel's box: its name; ticks and the other axis' name
 constexpr double nameLeft = 64;                    // from the box to the left of its name
-constexpr double placeHeight = 52;                 // upwards: a place's name and its bar
+constexpr double categoryHeight = 52;              // upwards: a category's name and its bar
 constexpr double keyHeight = 26, keyWidth = 24;    // of the legend: a line, a symbol
 constexpr std::size_t shortName = 26;              // letters that fit in half of the legend
 constexpr double labelHeight = 17, farLabel = 40;  // farLabel: from the point to its label's centre
@@ -84,15 +84,16 @@ struct Styles {
 class Panel {
 public:
     Panel(const Plot& plot, const PlotPanel& panel, const Styles& styles, const PlotBox& box,
-          PlotTarget place)
+          PlotTarget target)
         : plot_(plot),
           panel_(panel),
           styles_(styles),
           box_(box),
-          file_(place == PlotTarget::file),
+          file_(target == PlotTarget::file),
           across_(panel.across, values(&PlotPoint::x), others(true), box.left, box.right, false),
-          up_(panel.up, values(&PlotPoint::y), others(false), panel.up.places.empty() ? box.bottom : box.top,
-              panel.up.places.empty() ? box.top : box.bottom, true) {}
+          up_(panel.up, values(&PlotPoint::y), others(false),
+              panel.up.categories.empty() ? box.bottom : box.top,
+              panel.up.categories.empty() ? box.top : box.bottom, true) {}
 
     std::string svg() const {
         std::string out = axes();
@@ -133,7 +134,7 @@ private:
     }
 
     // The vertical axis is named above it: a rotated name beside it would collide with the ticks if text is
-    // large. The names of its places are inside, above bars.
+    // large. The names of its categories are inside, above bars.
     std::string axes() const {
         std::map<std::string_view, std::string> lines;  // by kind
         std::string out, texts;
@@ -144,11 +145,11 @@ private:
             lines[tick.kind] += to(tick.line, box_.top, tick.line, box_.bottom);
             texts += text("tick middle", tick.at, box_.bottom + 20, tick.text);
         }
-        const bool places = !panel_.up.places.empty();
+        const bool categorical = !panel_.up.categories.empty();
         for (const PlotTick& tick : up_.ticks()) {
-            if (!places) lines[tick.kind] += to(box_.left, tick.line, box_.right, tick.line);
-            texts += places ? text("tick", box_.left + 4, tick.at - 8, tick.text)
-                            : text("tick end", box_.left - 8, tick.at + 4, tick.text);
+            if (!categorical) lines[tick.kind] += to(box_.left, tick.line, box_.right, tick.line);
+            texts += categorical ? text("tick", box_.left + 4, tick.at - 8, tick.text)
+                                 : text("tick end", box_.left - 8, tick.at + 4, tick.text);
         }
         for (const auto& [kind, path] : lines)
             out += fmt::format("<path class=\"{}\" d=\"{}\"/>", kind, path);
@@ -220,17 +221,17 @@ private:
                 labels.push_back({x, y, plotLetter * static_cast<double>(point.label.size()), labelHeight});
                 texts.push_back(point.label);
             }
-        const std::vector<PlotBox> places = positionLabels(labels, marks, box_);
+        const std::vector<PlotBox> label_boxes = positionLabels(labels, marks, box_);
         std::string out;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const double x = (places[i].left + places[i].right) / 2,
-                         y = (places[i].top + places[i].bottom) / 2;
+        for (std::size_t i = 0; i < label_boxes.size(); ++i) {
+            const double x = (label_boxes[i].left + label_boxes[i].right) / 2,
+                         y = (label_boxes[i].top + label_boxes[i].bottom) / 2;
             const double own = std::hypot(x - labels[i].x, y - labels[i].y);
             const bool misread = std::ranges::any_of(marks, [&](const PlotBox& m) {
                 return std::hypot(x - (m.left + m.right) / 2, y - (m.top + m.bottom) / 2) < own - 1e-6;
             });
             if (own > farLabel || misread) out += line("lead", labels[i].x, labels[i].y, x, y);
-            out += text("row middle", x, places[i].bottom - 3, texts[i]);
+            out += text("row middle", x, label_boxes[i].bottom - 3, texts[i]);
         }
         return out.empty() ? out : "<g class=\"rows-named\">" + out + "</g>";
     }
@@ -289,7 +290,7 @@ std::vector<PlotPoint>& PlotPanel::pointsOf(const std::string& name, std::option
     return (found == series.end() ? series.emplace_back(PlotSeries{name, path, line}) : *found).points;
 }
 
-std::string svgOf(const Plot& plot, PlotTarget place) {
+std::string svgOf(const Plot& plot, PlotTarget target) {
     Styles styles;
     for (const PlotPanel& panel : plot.panels)
         for (const PlotSeries& series : panel.series)
@@ -303,15 +304,15 @@ std::string svgOf(const Plot& plot, PlotTarget place) {
         const std::size_t column = i % plot.columns;
         if (column == 0) top = next;
         const double left = plotLeft + static_cast<double>(column) * width;
-        const double inner = panel.up.places.empty()
+        const double inner = panel.up.categories.empty()
                                  ? plot.height - above - below
-                                 : placeHeight * static_cast<double>(panel.up.places.size());
+                                 : categoryHeight * static_cast<double>(panel.up.categories.size());
         const PlotBox box{left, top + above, left + width - columnGap, top + above + inner};
-        inside += Panel(plot, panel, styles, box, place).svg();
+        inside += Panel(plot, panel, styles, box, target).svg();
         next = std::max(next, box.bottom + below);
     }
     inside += legendOf(plot, styles, next);
-    const bool file = place == PlotTarget::file;
+    const bool file = target == PlotTarget::file;
     const std::string title = markup(plot.title);
     return fmt::format(
         "<svg class=\"chart\" viewBox=\"0 0 {:.0f} {:.0f}\" {}role=\"{}\" aria-label=\"{}\">{}{}"

@@ -50,9 +50,9 @@ struct PlotBar {
 };
 inline constexpr std::size_t maxParts = 8;  // the last colour is grey
 
-// The extent upwards of a bar at a place, below the place's name.
-constexpr PlotRange barAt(double place) {
-    return {place - 0.04, place + 0.35};
+// The extent upwards of a bar of a category, below its name.
+constexpr PlotRange barAt(double index) {
+    return {index - 0.04, index + 0.35};
 }
 
 // A line across the panel, at a value of one axis.
@@ -77,13 +77,13 @@ struct Plot {
     std::string title{};
     std::vector<PlotPanel> panels{};
     std::size_t columns = 1;
-    double height = 420;               // of a panel without places upwards
+    double height = 420;               // of a panel without categories upwards
     std::vector<std::string> parts{};  // names of bars' colours
     std::string interval{};            // what intervals of points are; empty: not in the legend
     bool chooses = false;              // in a page, points are buttons
 };
 
-std::string svgOf(const Plot& plot, PlotTarget place);
+std::string svgOf(const Plot& plot, PlotTarget target);
 
 // For a plot's file of another machine: throws std::runtime_error unless svgOf() may write it
 // (compare/page/emitted.h).

@@ -12,8 +12,8 @@ namespace diptych {
 struct PlotAxis {
     std::string name{};
     bool logarithmic = true;
-    std::vector<double> shown{};        // visible besides all points and bars
-    std::vector<std::string> places{};  // names of 0, 1, ... at even distances instead; upwards, 0 is on top
+    std::vector<double> shown{};            // visible besides all points and bars
+    std::vector<std::string> categories{};  // names of 0, 1, ... at even distances; upwards, 0 is on top
 };
 
 }  // namespace diptych

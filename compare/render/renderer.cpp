@@ -420,9 +420,9 @@ std::vector<Frame> renderAll(Device& device, SceneViews& views, const std::vecto
     std::vector<Frame> frames;
     const auto count = static_cast<double>(settings.size());
     for (std::size_t i = 0; i < settings.size(); ++i) {
-        const auto place = [&](double done) { return timing + (1 - timing) * done / count; };
+        const auto overall = [&](double done) { return timing + (1 - timing) * done / count; };
         const auto done = static_cast<double>(i);
-        each.progress = options.progress.part(place(done), place(done + 1));
+        each.progress = options.progress.part(overall(done), overall(done + 1));
         each.decoded = options.through_gbuffer ? decodedBeside(settings[i], settings) : std::nullopt;
         frames.push_back(renderer.draw(settings[i], each));
         addTimes(times[i], frames.back());

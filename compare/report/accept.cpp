@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using Place = JsonAt<nlohmann::json>;
+using JsonValue = JsonAt<nlohmann::json>;
 
 // The largest failing difference of a channel over a scene's cameras and pairs.
 struct Failing {
@@ -42,14 +42,14 @@ nlohmann::json reportIn(const fs::path& where) {
                      [](int, const std::string& key) { return wanted.contains(key); });
 }
 
-AllFailing failingOf(const Place& comparisons, const std::string& scene, const std::string& channel) {
+AllFailing failingOf(const JsonValue& comparisons, const std::string& scene, const std::string& channel) {
     AllFailing all;
     bool met = scene.empty();
-    for (const Place& comparison : comparisons.each()) {
+    for (const JsonValue& comparison : comparisons.each()) {
         const std::string name = comparison.textOr("scene", "");
         if (!scene.empty() && name != scene) continue;
         met = true;
-        for (const Place& of : comparison.at("channels").each()) {
+        for (const JsonValue& of : comparison.at("channels").each()) {
             const std::string its = of.textOr("name", "");
             if (of.textOr("verdict", "") != "fail" || (!channel.empty() && its != channel)) continue;
             if (!of.has("max") || !of.at("max").json().is_number())
@@ -74,12 +74,12 @@ AllFailing failingOf(const Place& comparisons, const std::string& scene, const s
 AllFailing failingIn(const fs::path& where, const std::string& scene, const std::string& channel) {
     const nlohmann::json json = named("accept " + where.string(), [&] {
         nlohmann::json report = reportIn(where);
-        const Place top(report);
+        const JsonValue top(report);
         if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
             fail("is not a report written by compare; give its folder or its report.json");
         return report;
     });
-    return failingOf(Place(json).at("comparisons"), scene, channel);
+    return failingOf(JsonValue(json).at("comparisons"), scene, channel);
 }
 
 // Rules of an existing file; none if there is no file.

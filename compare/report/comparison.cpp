@@ -189,7 +189,7 @@ List glossaryOf(const Comparison& comparison) {
 
 // Repeats the cards' findings for failures, warnings, rules, and differences that the encoding explains.
 List findingsOf(const Report& report, const Comparison& comparison) {
-    const std::string location = placeOf(report, comparison);
+    const std::string location = viewLabel(report, comparison);
     List list;
     const auto add = [&](const std::string& start, Text text) {
         text.spans.insert(text.spans.begin(), Span(start));

@@ -39,7 +39,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-using Place = JsonAt<nlohmann::json>;
+using JsonValue = JsonAt<nlohmann::json>;
 
 constexpr const char* partFile = "part.json";
 constexpr int partSchema = 2;  // 2: sections fit this version's style and scripts
@@ -69,7 +69,7 @@ Json summaryOf(const Frame& frame) {
             {"settings", settings}, {"device", frame.origin.device}, {"notes", frame.notes}};
 }
 
-Frame frameFrom(const Place& json) {
+Frame frameFrom(const JsonValue& json) {
     Frame frame;
     frame.name = json.at("name").text();
     frame.scene = json.at("scene").text();
@@ -98,33 +98,33 @@ Json summaryOf(const Comparison& comparison) {
             {"checks", checks}};
 }
 
-Verdict verdictFrom(const Place& json) {
+Verdict verdictFrom(const JsonValue& json) {
     const auto found = std::ranges::find(verdicts, json.text(), [](Verdict v) { return nameOf(v); });
     if (found == std::end(verdicts)) json.fail("is not a verdict");
     return *found;
 }
 
-Comparison comparisonFrom(const Place& json, std::size_t frames) {
+Comparison comparisonFrom(const JsonValue& json, std::size_t frames) {
     Comparison comparison;
     comparison.baseline = json.at("frames")[0].index(frames);
     comparison.test = json.at("frames")[1].index(frames);
     comparison.failures = json.at("failures").texts();
     comparison.notes = json.at("notes").texts();
     comparison.emptiness = json.at("emptiness").text();
-    for (const Place& c : json.at("channels").each()) {
+    for (const JsonValue& c : json.at("channels").each()) {
         ChannelDiff& channel = comparison.channels.emplace_back();
         channel.mode = &debugModeFrom(c[0]);
         channel.verdict = verdictFrom(c[1]);
         channel.reason = c[2].text();
         channel.warning = c[3].text();
     }
-    for (const Place& check : json.at("checks").each())
+    for (const JsonValue& check : json.at("checks").each())
         comparison.visual_checks.push_back(
             {kept(check[0].text()), check[1].whole<std::uint64_t>(0, max_counted), {}});
     return comparison;
 }
 
-ReportDevice deviceFrom(const Place& json) {
+ReportDevice deviceFrom(const JsonValue& json) {
     return {json.at("name").text(), json.at("driver").text(), json.at("type").text()};
 }
 
@@ -158,29 +158,29 @@ Json jsonOf(const ReportPart& part) {
 }
 
 // Checks file names of the part: unique, in the scene's folder, and of one of the kinds.
-std::vector<std::string> namesFrom(const Place& json, const std::string& scene_folder,
+std::vector<std::string> namesFrom(const JsonValue& json, const std::string& scene_folder,
                                    std::set<std::string>& taken, std::initializer_list<const char*> endings) {
-    for (const Place& place : json.each()) {
-        const std::string& name = place.text();
+    for (const JsonValue& value : json.each()) {
+        const std::string& name = value.text();
         if (!isOurName(name) || !name.starts_with(scene_folder))
-            place.fail(
+            value.fail(
                 fmt::format("\"{}\" is not a file in the report folder \"{}\"", oneLine(name), scene_folder));
-        if (!taken.insert(name).second) place.fail(fmt::format("\"{}\" is listed twice", name));
+        if (!taken.insert(name).second) value.fail(fmt::format("\"{}\" is listed twice", name));
         if (std::ranges::none_of(endings, [&](const char* ending) { return name.ends_with(ending); }))
-            place.fail(fmt::format("\"{}\" is of a kind that a report does not list here", name));
+            value.fail(fmt::format("\"{}\" is of a kind that a report does not list here", name));
     }
     return json.texts();
 }
 
 // Checks that the list has `count` elements, one for each `of`.
 template <class List>
-void checkCount(const Place& json, const char* key, const List& list, std::size_t count, const char* of) {
+void checkCount(const JsonValue& json, const char* key, const List& list, std::size_t count, const char* of) {
     if (list.size() != count)
         json.at(key).fail(fmt::format("has {} elements, but there are {} {}", list.size(), count, of));
 }
 
 // Checks every index and everything that belongs to a comparison; joining parts relies on it.
-ReportPart partFrom(const Place& json, const std::string& scene_folder) {
+ReportPart partFrom(const JsonValue& json, const std::string& scene_folder) {
     ReportPart part;
     part.scene_folder = scene_folder;
     if (json.at("schema").number() != partSchema)
@@ -188,11 +188,11 @@ ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     Report& report = part.report;
     report.device = deviceFrom(json.at("device"));
     report.against = deviceFrom(json.at("against"));
-    for (const Place& frame : json.at("frames").each()) report.frames.push_back(frameFrom(frame));
+    for (const JsonValue& frame : json.at("frames").each()) report.frames.push_back(frameFrom(frame));
     const std::size_t frames = report.frames.size();
-    for (const Place& comparison : json.at("comparisons").each())
+    for (const JsonValue& comparison : json.at("comparisons").each())
         report.comparisons.push_back(comparisonFrom(comparison, frames));
-    for (const Place& closer : json.at("closer").each()) {
+    for (const JsonValue& closer : json.at("closer").each()) {
         CloserPath& of = report.closer_paths.emplace_back();
         of.reference = closer[0].index(frames);
         of.paths = {closer[1].index(frames), closer[2].index(frames)};
@@ -202,8 +202,8 @@ ReportPart partFrom(const Place& json, const std::string& scene_folder) {
     part.tables = json.at("tables").texts();
     part.closer_tables = json.at("closer_tables").texts();
     part.closer_boxes = json.at("closer_boxes").texts();
-    for (const Place& row : json.at("rows").each()) part.rows.push_back(indexRowFrom(row));
-    for (const Place& exposure : json.at("exposures").each()) {
+    for (const JsonValue& row : json.at("rows").each()) part.rows.push_back(indexRowFrom(row));
+    for (const JsonValue& exposure : json.at("exposures").each()) {
         Exposure& of = part.exposures.emplace_back();
         of.factor = exposure[0].number();
         of.because = exposure[1].text();
@@ -312,7 +312,7 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
     const Json json = jsonOf(whole);
     writeFile(root / (part.scene_folder + partFile), partText(json));
     const nlohmann::json written = json;
-    return partFrom(Place(written), part.scene_folder);
+    return partFrom(JsonValue(written), part.scene_folder);
 }
 
 bool isPartThere(const fs::path& root, const std::string& scene_folder) {
@@ -322,7 +322,7 @@ bool isPartThere(const fs::path& root, const std::string& scene_folder) {
 ReportPart readPart(const fs::path& root, const std::string& scene_folder) {
     const std::string name = scene_folder + partFile;
     ReportPart part = named((root / name).string(), [&] {
-        return partFrom(Place(parseJson(textBelow(root, name, json_bytes))), scene_folder);
+        return partFrom(JsonValue(parseJson(textBelow(root, name, json_bytes))), scene_folder);
     });
     checkFiles(root, part);
     return part;

@@ -94,7 +94,7 @@ std::string checksLine(const Comparison& comparison) {
     return fmt::format("{} to check by eye: {}", counted(count, "place"), fmt::join(features, ", "));
 }
 
-std::string placeOf(const Report& report, const Comparison& comparison) {
+std::string viewLabel(const Report& report, const Comparison& comparison) {
     const Frame& frame = report.baseline(comparison);
     const bool several = std::ranges::any_of(report.comparisons, [&](const Comparison& other) {
         return report.baseline(other).scene == frame.scene &&
@@ -181,23 +181,23 @@ std::string errorsText(const Report& report) {
                        files ? "compared" : "rendered", listed(scenes, scenesNamed));
 }
 
-// placeOf(), and the pair if the place has several: "Box.glb b.exr/deferred".
-std::string pairPlaceOf(const Report& report, const Comparison& comparison) {
-    const std::string location = placeOf(report, comparison);
+// viewLabel(), and the pair if the view has several: "Box.glb b.exr/deferred".
+std::string pairLabel(const Report& report, const Comparison& comparison) {
+    const std::string location = viewLabel(report, comparison);
     if (!hasMultiplePairs(report) || report.device.name.empty()) return location;  // diff names files
     return fmt::format("{} {}/{}", location, report.baseline(comparison).name, report.test(comparison).name);
 }
 
 // A warning that belongs to a verdict about nearly empty images.
 std::string hardlyAnything(const Report& report) {
-    std::vector<std::string> places, why;
+    std::vector<std::string> labels, why;
     for (const Comparison& comparison : report.comparisons) {
         if (comparison.emptiness.empty()) continue;
-        addOnce(places, placeOf(report, comparison));
+        addOnce(labels, viewLabel(report, comparison));
         addOnce(why, comparison.emptiness);
     }
     if (why.empty()) return {};
-    if (report.comparisons.size() > 1) return fmt::format(", but {}: {}", listed(places, 3), listed(why, 1));
+    if (report.comparisons.size() > 1) return fmt::format(", but {}: {}", listed(labels, 3), listed(why, 1));
     return ", but " + why.front();
 }
 
@@ -205,7 +205,7 @@ std::string hardlyAnything(const Report& report) {
 
 std::string verdictLine(const Report& report) {
     std::size_t compared = 0, informative = 0, alone_on_a_side = 0, failing = 0;
-    std::vector<std::string> others, channels, places;
+    std::vector<std::string> others, channels, labels;
     for (const Comparison& comparison : report.comparisons) {
         for (const std::string& failure : comparison.failures) addOnce(others, failure);
         for (const ChannelDiff& channel : comparison.channels) {
@@ -215,7 +215,7 @@ std::string verdictLine(const Report& report) {
             if (channel.verdict == Verdict::fail) addOnce(channels, std::string(channel.mode->name));
         }
         failing += !comparison.passed();
-        if (!comparison.passed()) addOnce(places, pairPlaceOf(report, comparison));
+        if (!comparison.passed()) addOnce(labels, pairLabel(report, comparison));
     }
     const std::string errors = report.errors.empty() ? "" : fmt::format("ERROR: {}; ", errorsText(report));
     const std::size_t all = report.comparisons.size();
@@ -244,7 +244,7 @@ std::string verdictLine(const Report& report) {
     const std::string more =
         others.size() > 1 ? fmt::format(", and {} more", others.size() - 1) : std::string();
     return fmt::format("{}FAIL: {} of {} comparisons failed: {} ({}){}", errors, failing, all,
-                       listed(places, scenesNamed), what, more);
+                       listed(labels, scenesNamed), what, more);
 }
 
 std::vector<std::pair<std::string, std::string>> notesWithScenes(const Report& report,

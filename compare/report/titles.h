@@ -47,7 +47,7 @@ std::string withoutNumbers(const std::string& text);
 
 // Scene, and camera and time if the report has several for that scene: "Box.glb", "Box.glb, camera 1",
 // "Box.glb, default view, 0.5 s".
-std::string placeOf(const Report& report, const Comparison& comparison);
+std::string viewLabel(const Report& report, const Comparison& comparison);
 
 // A note and its scenes, in the report's order.
 struct GroupedNote {

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using Place = JsonAt<nlohmann::json>;
+using JsonValue = JsonAt<nlohmann::json>;
 
 // A comparison in the earlier report.
 struct Earlier {
@@ -54,18 +54,18 @@ bool isLeftOut(const std::string& key) {
 }
 
 // JSON has null for infinity.
-double metricIn(const Place& json, const char* name) {
+double metricIn(const JsonValue& json, const char* name) {
     return json.has(name) && json.at(name).json().is_number() ? json.at(name).number() : 1e300;
 }
 
-void addComparison(EarlierReport& report, std::map<std::string, int>& again, const Place& json) {
+void addComparison(EarlierReport& report, std::map<std::string, int>& again, const JsonValue& json) {
     std::string key = rowKey(json.textOr("scene", ""), json.textOr("baseline", ""), json.textOr("test", ""),
                              jsonOf(cameraFrom(json.at("camera"))).dump());
     key += fmt::format("\n{}", ++again[key]);
     Earlier& earlier = report.comparisons[key];
     earlier.scene = json.textOr("scene", "");
     earlier.verdict = json.textOr("verdict", "");
-    for (const Place& channel : json.at("channels").each()) {
+    for (const JsonValue& channel : json.at("channels").each()) {
         const std::string verdict = channel.textOr("verdict", "");
         if (verdict != "pass" && verdict != "fail") continue;
         auto& metrics = earlier.channels[channel.textOr("name", "")];
@@ -73,12 +73,12 @@ void addComparison(EarlierReport& report, std::map<std::string, int>& again, con
     }
 }
 
-void addNoise(EarlierReport& report, const Place& frame) {
+void addNoise(EarlierReport& report, const JsonValue& frame) {
     if (!frame.has("noise")) return;
-    const Place noise = frame.at("noise");
+    const JsonValue noise = frame.at("noise");
     for (const auto& [channel, of] : noise.json().items()) {
         double& max = report.noise[frame.textOr("scene", "") + "\n" + channel];
-        max = std::max(max, 2 * metricIn(Place(of), "max"));
+        max = std::max(max, 2 * metricIn(JsonValue(of), "max"));
     }
 }
 
@@ -86,15 +86,16 @@ EarlierReport readEarlier(const fs::path& where) {
     return named("--since " + where.string(), [&] {
         const nlohmann::json json = parseJson(textIn(reportFile(where), json_bytes),
                                               [](int, const std::string& key) { return !isLeftOut(key); });
-        const Place top(json);
+        const JsonValue top(json);
         if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
             fail("is not a report of compare; give its folder or report.json");
         EarlierReport report;
-        const Place device = top.at("device");
+        const JsonValue device = top.at("device");
         report.device = device.textOr("name", "") + ", " + device.textOr("driver", "");
         std::map<std::string, int> again;
-        for (const Place& comparison : top.at("comparisons").each()) addComparison(report, again, comparison);
-        for (const Place& frame : top.at("frames").each()) addNoise(report, frame);
+        for (const JsonValue& comparison : top.at("comparisons").each())
+            addComparison(report, again, comparison);
+        for (const JsonValue& frame : top.at("frames").each()) addNoise(report, frame);
         return report;
     });
 }
@@ -200,7 +201,7 @@ std::vector<std::string> trendLines(const Trends& trends, const Report& report) 
         for (std::size_t i = 0; i < trends.comparisons.size(); ++i) {
             const Trend& trend = trends.comparisons[i];
             if (trend.kind != kind) continue;
-            std::string location = placeOf(report, report.comparisons[i]);
+            std::string location = viewLabel(report, report.comparisons[i]);
             if (!trend.moved.empty())
                 location += fmt::format(
                     " ({}{})", movedText(trend.moved.front()),

@@ -32,16 +32,16 @@ void replaceAll(std::string& text, std::string_view what, const std::string& by)
 // number.
 std::vector<DrawnOn> devicesOf(const WholeReport& whole) {
     std::vector<DrawnOn> devices;
-    for (const PlacedPart& placed : whole.parts) {
-        const ReportDevice& device = placed.part.report.device;
+    for (const LocatedPart& located : whole.parts) {
+        const ReportDevice& device = located.part.report.device;
         auto at = std::ranges::find_if(devices, [&](const DrawnOn& one) {
             return one.device.name == device.name && one.device.driver == device.driver &&
                    one.device.type == device.type;
         });
         if (at == devices.end()) at = devices.insert(at, {device});
-        at->comparisons += placed.part.report.comparisons.size();
-        at->compare_ms += placed.part.report.diff_ms;
-        at->encode_ms += placed.part.encode_ms;
+        at->comparisons += located.part.report.comparisons.size();
+        at->compare_ms += located.part.report.diff_ms;
+        at->encode_ms += located.part.encode_ms;
     }
     return devices;
 }
@@ -60,8 +60,8 @@ ReportLayout layoutOf(const WholeReport& whole, const ReportPart& all, const Rep
         for (std::size_t at = 0; at < std::min(layout.order.size(), inPage); ++at)
             layout.sections[layout.order[at]].clear();
     } else {
-        for (const PlacedPart& placed : whole.parts)
-            for (const std::string& name : placed.part.texts()) layout.exr.push_back(name);
+        for (const LocatedPart& located : whole.parts)
+            for (const std::string& name : located.part.texts()) layout.exr.push_back(name);
         layout.exr.emplace_back(shardManifest);
     }
     return layout;
@@ -71,8 +71,8 @@ ReportLayout layoutOf(const WholeReport& whole, const ReportPart& all, const Rep
 std::function<std::string(std::size_t)> sectionsOf(const WholeReport& whole, const ReportPart& all,
                                                    const ReportLayout& layout) {
     std::vector<fs::path> roots;
-    for (const PlacedPart& placed : whole.parts)
-        roots.insert(roots.end(), placed.part.sections.size(), placed.root);
+    for (const LocatedPart& located : whole.parts)
+        roots.insert(roots.end(), located.part.sections.size(), located.root);
     return [&all, &layout, roots = std::move(roots)](std::size_t index) {
         std::string text = sectionIn(roots[index], all.sections[index]);
         replaceAll(text, numberLater, layout.ids[index]);
@@ -82,14 +82,14 @@ std::function<std::string(std::size_t)> sectionsOf(const WholeReport& whole, con
 }
 
 // Links or copies those of the parts' files that the report lists.
-void placeFiles(const WholeReport& whole, const std::vector<std::string>& files, const OutputFolder& folder) {
+void copyFiles(const WholeReport& whole, const std::vector<std::string>& files, const OutputFolder& folder) {
     const std::set<std::string> listed(files.begin(), files.end());
-    for (const PlacedPart& placed : whole.parts)
+    for (const LocatedPart& located : whole.parts)
         for (const std::vector<std::string>& names :
-             {placed.part.files, placed.part.sections, placed.part.texts()})
+             {located.part.files, located.part.sections, located.part.texts()})
             for (const std::string& name : names)
                 if (listed.contains(name))
-                    (placed.kept ? linkOrCopy : copyBelow)(placed.root, name, folder / name);
+                    (located.written_here ? linkOrCopy : copyBelow)(located.root, name, folder / name);
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ void placeFiles(const WholeReport& whole, const std::vector<std::string>& files,
 ReportPart joinedOf(WholeReport& whole) {
     ReportPart all;
     Report& joined = all.report;
-    for (PlacedPart& placed : whole.parts) {
-        ReportPart& part = placed.part;
+    for (LocatedPart& located : whole.parts) {
+        ReportPart& part = located.part;
         const auto move = [](auto& from, auto& to) { std::ranges::move(from, std::back_inserter(to)); };
         move(part.tables, all.tables);
         move(part.closer_tables, all.closer_tables);
@@ -136,13 +136,13 @@ void writeWhole(const WholeReport& whole, const ReportPart& all, const fs::path&
                             sectionsOf(whole, all, layout)};
     // Reads one text of each part, one after the other.
     const auto each = [&](std::size_t text, const auto& give) {
-        for (const PlacedPart& placed : whole.parts) give(readPartText(placed.root, placed.part, text));
+        for (const LocatedPart& located : whole.parts) give(readPartText(located.root, located.part, text));
     };
 
     OutputFolder folder(path);
     const std::vector<std::string> files = layout.files();
     folder.makeFolders(files);
-    placeFiles(whole, files, folder);
+    copyFiles(whole, files, folder);
     const auto write = [&](const std::string& name, const std::function<void(const JsonSink&)>& make) {
         AtomicFile file(folder / name);
         make([&](std::string_view text) { std::fwrite(text.data(), 1, text.size(), file.stream()); });

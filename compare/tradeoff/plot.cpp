@@ -10,7 +10,7 @@
 namespace diptych::tradeoff {
 
 std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t metric, std::optional<Path> path,
-                         PlotTarget place) {
+                         PlotTarget target) {
     const std::string title(errorMetrics[metric].title);
     PlotPanel panel{.across = {"time of a frame, ms"}, .up = {title}};
     const std::vector<std::size_t> front = frontOf(tradeoff, metric, path);
@@ -37,7 +37,7 @@ std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t metric, std::opti
                   .panels = {panel},
                   .interval = "least to greatest",
                   .chooses = true},
-                 place);
+                 target);
 }
 
 std::string plotName(std::size_t metric, std::optional<Path> path) {

@@ -142,7 +142,7 @@ bool Shadowed::isBesideEdge(std::size_t i) const {
 
 DeviceBounds::Kind DeviceBounds::kindOf(const DebugMode& mode) {
     switch (sourceOf(mode.channel).stage) {
-        case ChannelStage::place:
+        case ChannelStage::position:
         case ChannelStage::haze:
             return Kind::position;
         case ChannelStage::facet:

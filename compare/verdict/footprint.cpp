@@ -33,7 +33,7 @@ constexpr double sameSurface = 1e-5;
 
 // Channels of a surface's position, which are not filtered.
 bool isGeometry(const DebugMode& mode) {
-    return sourceOf(mode.channel).stage == ChannelStage::place;
+    return sourceOf(mode.channel).stage == ChannelStage::position;
 }
 
 // Channels of a surface's material; where they differ, its light may.

@@ -158,7 +158,7 @@ std::string_view equalBecause(const DebugMode& mode) {
             return mode.maker == MadeBy::deferred_only
                        ? "the same samples of one G-buffer are shaded"
                        : "both paths use one list, chosen by the same function of pixel and depth";
-        case ChannelStage::place:
+        case ChannelStage::position:
         case ChannelStage::haze:
             return "the same function of pixel and depth in both paths";
         case ChannelStage::map:

@@ -58,9 +58,9 @@ void Latencies::frame(double ms) {
 double Latencies::percentileOf(double fraction) const {
     if (frames_.empty()) return 0;
     std::vector<double> sorted = frames_;
-    const auto place = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(sorted.size() - 1));
-    std::ranges::nth_element(sorted, sorted.begin() + place);
-    return sorted[static_cast<std::size_t>(place)];
+    const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(sorted.size() - 1));
+    std::ranges::nth_element(sorted, sorted.begin() + rank);
+    return sorted[static_cast<std::size_t>(rank)];
 }
 
 void Latencies::sayFrames() const {

@@ -455,7 +455,7 @@ private:
         contents_.drawn_by = drawing_.device();
         contents_.shown_by = screen_.device();
         const CanvasRect canvas = canvasNow();
-        screen_.draw(state_, contents_, canvas, placesOf(canvas, state_));
+        screen_.draw(state_, contents_, canvas, panelRectsOf(canvas, state_));
         window_.setTitle(fmt::format("Diptych - {} - {}",
                                      contents_.properties ? contents_.properties->name : state_.subject.scene,
                                      debugMode(state_.look.channel()).name));

@@ -20,7 +20,7 @@
 //           paths_only     both paths, not the reference: it describes how they work
 //   stage   what makes the value:
 //           id          the material's index
-//           place       the position alone, as the rasteriser interpolates it
+//           position    the position alone, as the rasteriser interpolates it
 //           facet       the triangle
 //           surface     the material's factors and texels
 //           list        selection of lights, or of samples, to evaluate
@@ -37,7 +37,7 @@
 //   texels  how it depends on texels: number: linearly; color: sRGB, times linear ones if scaled_color;
 //           thickness: linear between two lengths; length: linear, times a length; direction, line: 3 and 2
 //           components 2 t - 1 of a direction
-//   related its place among the channels that relations of an audit compare; 0: they do not
+//   related its index among the channels that relations of an audit compare; 0: they do not
 // clang-format off
 #define DEBUG_MODES(X) \
     X(0,  lit, 3, relative, color, any, both, "radiance, W/(sr m^2)", \
@@ -59,12 +59,12 @@
     X(8,  material_id, 1, exact, id, any, both, "material index; -1: background", \
           id, 100, exact, 0, 0, none, none, 7) \
     X(9,  texcoords, 2, absolute, vector, any, forward_only, "first UV set", \
-          place, 140, exact, 0, 0, none, none, 0) \
+          position, 140, exact, 0, 0, none, none, 0) \
     X(10, depth, 1, relative, scalar, positive, both, "view depth, m (EXR layer Z)", \
-          place, 110, exact, 0, 0, none, none, 8) \
+          position, 110, exact, 0, 0, none, none, 8) \
     X(11, position, 3, relative, vector, any, both, \
           "shading position relative to the camera, world axes, m", \
-          place, 120, exact, 0, 0, none, none, 0) \
+          position, 120, exact, 0, 0, none, none, 0) \
     X(12, geometric_normal, 3, angular, vector, unit, both, "triangle normal, world", \
           facet, 130, octahedral, STANDARD_GEOMETRIC_NORMAL_BITS, COMPACT_GEOMETRIC_NORMAL_BITS, \
           none, none, 9) \
@@ -121,7 +121,7 @@
           surface, 380, radiance, EMISSION_MANTISSA_BITS, EMISSION_MANTISSA_BITS, lightmap, color, 0) \
     X(52, tangent, 3, absolute, vector, any, forward_only, \
           "tangent of the normal map, world; 0 without a normal map", \
-          place, 150, exact, 0, 0, none, none, 0) \
+          position, 150, exact, 0, 0, none, none, 0) \
     X(53, handedness, 1, exact, scalar, any, forward_only, \
           "sign of the bitangent, 1 or -1; 0 without a normal map", \
           surface, 160, exact, 0, 0, none, none, 0) \

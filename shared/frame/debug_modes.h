@@ -24,7 +24,7 @@ enum class ChannelKind { color, vector, scalar, id };
 enum class Domain { unit, unit_or_zero, ratio, positive, any };
 enum class MadeBy { both, forward_only, deferred_only, paths_only };
 // Columns of DEBUG_MODES, which explains their values.
-enum class ChannelStage { id, place, facet, surface, list, map, visibility, light, unshadowed, haze };
+enum class ChannelStage { id, position, facet, surface, list, map, visibility, light, unshadowed, haze };
 enum class FieldCode { exact, unorm, root, octahedral, line, radiance, index, half };
 enum class MaterialPart {
     none,
@@ -62,7 +62,7 @@ struct DebugMode {
     int step = 0;  // ascends in the order of computation
     ChannelCode stored{};
     TexelUse texels = TexelUse::none;
-    int related = 0;  // place among the channels that relations compare; 0: none
+    int related = 0;  // index among the channels that relations compare; 0: none
     ShownAs shown = ShownAs::by_metric;
 };
 

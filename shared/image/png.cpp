@@ -46,7 +46,7 @@ Palette paletteOf(const Image8& image) {
     Palette palette;
     if (image.components != 3) return palette;
     const std::size_t pixels = image.data.size() / 3;
-    std::unordered_map<std::uint32_t, png_byte> places;
+    std::unordered_map<std::uint32_t, png_byte> known_colors;
     palette.indices.resize(pixels);
     std::uint32_t last = ~0u;
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -56,10 +56,11 @@ Palette paletteOf(const Image8& image) {
             palette.indices[i] = palette.indices[i - 1];
             continue;
         }
-        const auto [place, isNew] = places.try_emplace(color, static_cast<png_byte>(palette.colors.size()));
+        const auto [entry, isNew] =
+            known_colors.try_emplace(color, static_cast<png_byte>(palette.colors.size()));
         if (isNew && palette.colors.size() == 256) return {};
         if (isNew) palette.colors.push_back({p[0], p[1], p[2]});
-        palette.indices[i] = place->second;
+        palette.indices[i] = entry->second;
         last = color;
     }
     return palette;

@@ -215,9 +215,9 @@ DefaultView clearlyBetter(const DefaultView& before, const std::vector<DefaultVi
     return best;
 }
 
-DefaultView outsideAt(DefaultView::Place place, const glm::dvec3& backward) {
+DefaultView outsideAt(DefaultView::Viewpoint viewpoint, const glm::dvec3& backward) {
     DefaultView view;
-    view.place = place;
+    view.viewpoint = viewpoint;
     view.backward = glm::normalize(backward);
     return view;
 }
@@ -227,8 +227,8 @@ DefaultView standardView(const Scene& scene, const Pose& pose, const Bounds& bou
     const auto sees = [&](const DefaultView& view) {
         return anythingFaces(scene, pose, glm::dvec3(worldFromCamera(view, bounds, ratedAspect)[3]));
     };
-    const DefaultView standard = outsideAt(DefaultView::Place::standard, {1, 0.6, 1});
-    const DefaultView behind = outsideAt(DefaultView::Place::outside, {-1, -0.6, -1});
+    const DefaultView standard = outsideAt(DefaultView::Viewpoint::standard, {1, 0.6, 1});
+    const DefaultView behind = outsideAt(DefaultView::Viewpoint::outside, {-1, -0.6, -1});
     return !sees(standard) && sees(behind) ? behind : standard;
 }
 
@@ -239,7 +239,7 @@ std::vector<DefaultView> outsideViews(const Rating& rating) {
         for (int step = 0; step < 8; ++step) {
             const double azimuth = glm::radians(45.0 * (step + 1));
             views.push_back(rating.rated(
-                outsideAt(DefaultView::Place::outside,
+                outsideAt(DefaultView::Viewpoint::outside,
                           {std::sqrt(2.0) * std::sin(azimuth), height, std::sqrt(2.0) * std::cos(azimuth)})));
         }
     return views;
@@ -251,7 +251,7 @@ std::vector<DefaultView> insideViews(const Rating& rating) {
         for (int step = 0; step < yaws; ++step) {
             const double azimuth = glm::radians(360.0) * step / yaws;
             DefaultView view =
-                outsideAt(DefaultView::Place::inside, {std::sin(azimuth), 0, std::cos(azimuth)});
+                outsideAt(DefaultView::Viewpoint::inside, {std::sin(azimuth), 0, std::cos(azimuth)});
             view.eye = eye;
             views.push_back(rating.rated(view));
         }
@@ -261,9 +261,9 @@ std::vector<DefaultView> insideViews(const Rating& rating) {
 }  // namespace
 
 std::string DefaultView::describe() const {
-    const char* from = place == Place::inside    ? "from inside"
-                       : place == Place::outside ? "from another side, because it shows more"
-                                                 : "from outside";
+    const char* from = viewpoint == Viewpoint::inside    ? "from inside"
+                       : viewpoint == Viewpoint::outside ? "from another side, because it shows more"
+                                                         : "from outside";
     return fmt::format("{}; the scene covers {:.0f} % of the image", from, 100 * covered);
 }
 
@@ -285,12 +285,12 @@ DefaultView chooseDefaultView(const Scene& scene, const std::string& animation) 
 }
 
 double targetDistance(const DefaultView& view, const Bounds& bounds, double aspect) {
-    if (view.place == DefaultView::Place::inside) return usableRadius(bounds);
+    if (view.viewpoint == DefaultView::Viewpoint::inside) return usableRadius(bounds);
     return fittingDistance(bounds, lookAt(view.backward, glm::dvec3(0)), aspect);
 }
 
 glm::dmat4 worldFromCamera(const DefaultView& view, const Bounds& bounds, double aspect) {
-    if (view.place == DefaultView::Place::inside) return lookAt(view.eye, view.eye - view.backward);
+    if (view.viewpoint == DefaultView::Viewpoint::inside) return lookAt(view.eye, view.eye - view.backward);
     const glm::dvec3 centre = usableCentre(bounds);
     return lookAt(centre + view.backward * targetDistance(view, bounds, aspect), centre);
 }

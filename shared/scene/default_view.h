@@ -15,13 +15,13 @@ namespace diptych {
 
 // A camera around or inside a scene. The image size affects only the distance of an outside view.
 struct DefaultView {
-    enum class Place { standard, outside, inside };
-    Place place = Place::standard;  // standard: from the direction (+1, +0.6, +1) around the bounds
-    glm::dvec3 backward{0, 0, 1};   // unit, from the target to the eye
-    glm::dvec3 eye{0};              // if inside
-    double covered = 0;             // fraction of a 16:9 image that shows a surface, 0 to 1
-    double entropy = 0;             // bits, see viewEntropy()
-    std::string describe() const;   // "from inside; the scene covers 97 % of the image"
+    enum class Viewpoint { standard, outside, inside };
+    Viewpoint viewpoint = Viewpoint::standard;  // standard: from the direction (+1, +0.6, +1)
+    glm::dvec3 backward{0, 0, 1};               // unit, from the target to the eye
+    glm::dvec3 eye{0};                          // if inside
+    double covered = 0;                         // fraction of a 16:9 image that shows a surface, 0 to 1
+    double entropy = 0;                         // bits, see viewEntropy()
+    std::string describe() const;               // "from inside; the scene covers 97 % of the image"
 };
 
 // Viewpoint entropy in bits (Vázquez, Feixas, Sbert and Heidrich 2001, "Viewpoint Selection using

@@ -110,14 +110,14 @@ protected:
         size.height = 180;
         const double line = canvas.x + view.wipe * canvas.width;
         int count = 0, seen = 0;
-        for (const viewer::PanelRect& place : viewer::placesOf(canvas, size, view, difference)) {
-            if (place.panel != panel) continue;
+        for (const viewer::PanelRect& panel_rect : viewer::panelRectsOf(canvas, size, view, difference)) {
+            if (panel_rect.panel != panel) continue;
             for (int y = 0; y < size.height; ++y)
                 for (int x = 0; x < size.width; ++x) {
-                    const double px = place.placement.left + (x + 0.5) * place.placement.scale,
-                                 py = place.placement.top + (y + 0.5) * place.placement.scale;
+                    const double px = panel_rect.placement.left + (x + 0.5) * panel_rect.placement.scale,
+                                 py = panel_rect.placement.top + (y + 0.5) * panel_rect.placement.scale;
                     // The wipe's line and its handle.
-                    if (!place.rect.contains(px, py) ||
+                    if (!panel_rect.rect.contains(px, py) ||
                         (view.layout == viewer::Layout::wipe && std::abs(px - line) < 14))
                         continue;
                     ++seen;

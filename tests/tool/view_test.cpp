@@ -116,7 +116,7 @@ TEST_F(View, APixelsValuesAreThoseOfTheExr) {
     Size size;
     size.width = 320;
     size.height = 180;
-    const viewer::PanelRect place = viewer::placesOf(canvas, size, wipe(), false).front();
+    const viewer::PanelRect panel_rect = viewer::panelRectsOf(canvas, size, wipe(), false).front();
     ASSERT_EQ(runTool(folder_, "render builtin:spots --size 320x180 --runs 0 --path deferred -o d.exr").code,
               0);
     ASSERT_EQ(
@@ -127,8 +127,8 @@ TEST_F(View, APixelsValuesAreThoseOfTheExr) {
         const std::size_t before = times("view: pixel ");
         display_->events(
             fmt::format("mousemove {} {} click 3",
-                        static_cast<int>(place.placement.left + (x + 0.5) * place.placement.scale),
-                        static_cast<int>(place.placement.top + (y + 0.5) * place.placement.scale)));
+                        static_cast<int>(panel_rect.placement.left + (x + 0.5) * panel_rect.placement.scale),
+                        static_cast<int>(panel_rect.placement.top + (y + 0.5) * panel_rect.placement.scale)));
         await("view: pixel ", before);
         const auto words = [&, x = x, y = y](const Frame& frame) {
             return viewer::valueText(frame.channels.at(Channel::lit), x, y);

@@ -45,13 +45,13 @@ std::vector<Sample> samplesOf(int from, int count, double origin, double scale, 
 
 }  // namespace
 
-std::vector<PanelRect> placesOf(const CanvasRect& canvas, const Size& size, const CanvasView& view,
-                                bool difference) {
+std::vector<PanelRect> panelRectsOf(const CanvasRect& canvas, const Size& size, const CanvasView& view,
+                                    bool difference) {
     const std::size_t first = view.other ? 1 : 0, second = 1 - first;
-    std::vector<PanelRect> places;
+    std::vector<PanelRect> panel_rects;
     const auto add = [&](std::size_t panel, const CanvasRect& rect, const CanvasRect& within) {
         if (rect.width > 0 && rect.height > 0)
-            places.push_back({panel, rect, placementIn(within, size, view)});
+            panel_rects.push_back({panel, rect, placementIn(within, size, view)});
     };
     if (difference) {
         add(view.other ? 1 : 2, canvas, canvas);
@@ -69,43 +69,47 @@ std::vector<PanelRect> placesOf(const CanvasRect& canvas, const Size& size, cons
         add(first, left, left);
         add(second, right, right);
     }
-    return places;
+    return panel_rects;
 }
 
-std::optional<PixelUnder> pixelUnder(const std::vector<PanelRect>& places, const Size& size, double x,
+std::optional<PixelUnder> pixelUnder(const std::vector<PanelRect>& panel_rects, const Size& size, double x,
                                      double y) {
-    for (const PanelRect& place : places) {
-        if (!place.rect.contains(x, y)) continue;
-        const double px = (x - place.placement.left) / place.placement.scale,
-                     py = (y - place.placement.top) / place.placement.scale;
+    for (const PanelRect& panel_rect : panel_rects) {
+        if (!panel_rect.rect.contains(x, y)) continue;
+        const double px = (x - panel_rect.placement.left) / panel_rect.placement.scale,
+                     py = (y - panel_rect.placement.top) / panel_rect.placement.scale;
         if (px < 0 || py < 0 || px >= size.width || py >= size.height) return std::nullopt;
-        return PixelUnder{place.panel, {static_cast<int>(px), static_cast<int>(py)}};
+        return PixelUnder{panel_rect.panel, {static_cast<int>(px), static_cast<int>(py)}};
     }
     return std::nullopt;
 }
 
 std::vector<std::uint8_t> composed(const DrawnView& shown, const CanvasRect& canvas,
-                                   const std::vector<PanelRect>& places, bool bgr) {
+                                   const std::vector<PanelRect>& panel_rects, bool bgr) {
     constexpr std::array<std::uint8_t, 4> empty{26, 26, 28, 255};
     constexpr int lineLevel = 70;
     std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(canvas.width) *
                                      static_cast<std::size_t>(canvas.height));
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = empty[i % 4];
     const Size& full = shown.order.subject.settings.size;
-    for (const PanelRect& place : places) {
-        if (place.panel == 2 && !shown.difference) continue;
-        const Image8& image = place.panel == 2 ? shown.difference->image : shown.panels.at(place.panel).image;
+    for (const PanelRect& panel_rect : panel_rects) {
+        if (panel_rect.panel == 2 && !shown.difference) continue;
+        const Image8& image =
+            panel_rect.panel == 2 ? shown.difference->image : shown.panels.at(panel_rect.panel).image;
         if (image.data.empty()) continue;
-        const std::vector<Sample> columns = samplesOf(place.rect.x, place.rect.width, place.placement.left,
-                                                      place.placement.scale, full.width, image.width);
-        const std::vector<Sample> rows = samplesOf(place.rect.y, place.rect.height, place.placement.top,
-                                                   place.placement.scale, full.height, image.height);
-        for (int y = 0; y < place.rect.height; ++y) {
+        const std::vector<Sample> columns =
+            samplesOf(panel_rect.rect.x, panel_rect.rect.width, panel_rect.placement.left,
+                      panel_rect.placement.scale, full.width, image.width);
+        const std::vector<Sample> rows =
+            samplesOf(panel_rect.rect.y, panel_rect.rect.height, panel_rect.placement.top,
+                      panel_rect.placement.scale, full.height, image.height);
+        for (int y = 0; y < panel_rect.rect.height; ++y) {
             const Sample& row = rows[static_cast<std::size_t>(y)];
             if (row.pixel < 0) continue;
-            std::uint8_t* to = pixels.data() + 4 * (static_cast<std::size_t>(place.rect.y - canvas.y + y) *
-                                                        static_cast<std::size_t>(canvas.width) +
-                                                    static_cast<std::size_t>(place.rect.x - canvas.x));
+            std::uint8_t* to =
+                pixels.data() + 4 * (static_cast<std::size_t>(panel_rect.rect.y - canvas.y + y) *
+                                         static_cast<std::size_t>(canvas.width) +
+                                     static_cast<std::size_t>(panel_rect.rect.x - canvas.x));
             const std::uint8_t* const line = image.data.data() + 3 * static_cast<std::size_t>(row.pixel) *
                                                                      static_cast<std::size_t>(image.width);
             for (const Sample& column : columns) {

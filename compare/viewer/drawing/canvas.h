@@ -47,21 +47,21 @@ struct PanelRect {
 };
 
 // For images of the requested `size`; a smaller image is scaled to the same rectangle.
-std::vector<PanelRect> placesOf(const CanvasRect& canvas, const Size& size, const CanvasView& view,
-                                bool difference);
+std::vector<PanelRect> panelRectsOf(const CanvasRect& canvas, const Size& size, const CanvasView& view,
+                                    bool difference);
 
 struct PixelUnder {
     std::size_t panel = 0;
     PixelPosition pixel;  // of an image of the requested size
 };
 // The pixel at a window position; empty outside the images.
-std::optional<PixelUnder> pixelUnder(const std::vector<PanelRect>& places, const Size& size, double x,
+std::optional<PixelUnder> pixelUnder(const std::vector<PanelRect>& panel_rects, const Size& size, double x,
                                      double y);
 
 // The canvas's pixels, 4 bytes each, alpha 255, row 0 on top. From `gridFrom` on, lines separate image
 // pixels.
 inline constexpr double gridFrom = 8, valuesFrom = 64;  // window pixels per image pixel
 std::vector<std::uint8_t> composed(const DrawnView& shown, const CanvasRect& canvas,
-                                   const std::vector<PanelRect>& places, bool bgr);
+                                   const std::vector<PanelRect>& panel_rects, bool bgr);
 
 }  // namespace diptych::viewer

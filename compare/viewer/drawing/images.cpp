@@ -48,9 +48,9 @@ double topOf(const Image& errors) {
         largest = std::max(largest, size);
     }
     if (sizes.empty()) return 0;
-    const auto place = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(sizes.size() - 1));
-    std::ranges::nth_element(sizes, sizes.begin() + place);
-    return sizes[static_cast<std::size_t>(place)];
+    const auto rank = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(sizes.size() - 1));
+    std::ranges::nth_element(sizes, sizes.begin() + rank);
+    return sizes[static_cast<std::size_t>(rank)];
 }
 
 // test - baseline of the component where its magnitude is largest.

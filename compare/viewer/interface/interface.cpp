@@ -133,8 +133,8 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
 
 // ---- the footer ---------------------------------------------------------------------------------------
 
-void foot(InterfaceState& state, const Contents& contents, const std::vector<PanelRect>& places, int width,
-          int height, float scale) {
+void foot(InterfaceState& state, const Contents& contents, const std::vector<PanelRect>& panel_rects,
+          int width, int height, float scale) {
     const float tall = static_cast<float>(footHeight) * scale;
     ImGui::SetNextWindowPos({0, static_cast<float>(height) - tall});
     ImGui::SetNextWindowSize({static_cast<float>(width), tall});
@@ -145,9 +145,9 @@ void foot(InterfaceState& state, const Contents& contents, const std::vector<Pan
     std::string doing = contents.status.doing.empty() ? (contents.idle ? "done" : "drawing")
                                                       : fmt::format("{} {:.0f} %", contents.status.doing,
                                                                     100 * contents.status.fraction);
-    if (!places.empty())
+    if (!panel_rects.empty())
         doing = fmt::format("{}{:.3g} %   {}", state.canvas.zoom > 0 ? "zoom " : "fit, ",
-                            100 * places.front().placement.scale, doing);
+                            100 * panel_rects.front().placement.scale, doing);
     const float room = ImGui::CalcTextSize(doing.c_str()).x + 24 * scale;
     const bool is_error = !contents.status.error.empty(), is_message = ImGui::GetTime() < state.message_until;
     const std::string sentence = is_error     ? contents.status.error
@@ -172,19 +172,19 @@ void foot(InterfaceState& state, const Contents& contents, const std::vector<Pan
 
 // ---- over the images ----------------------------------------------------------------------------------
 
-void titles(const InterfaceState& state, const Contents& contents, const std::vector<PanelRect>& places,
+void titles(const InterfaceState& state, const Contents& contents, const std::vector<PanelRect>& panel_rects,
             float scale) {
     const DrawnView& shown = *contents.shown;
-    for (const PanelRect& place : places) {
-        const float x = static_cast<float>(place.rect.x) + 8 * scale,
-                    y = static_cast<float>(place.rect.y) + 6 * scale;
-        const bool narrow = static_cast<float>(place.rect.width) < 40 * scale;
+    for (const PanelRect& panel_rect : panel_rects) {
+        const float x = static_cast<float>(panel_rect.rect.x) + 8 * scale,
+                    y = static_cast<float>(panel_rect.rect.y) + 6 * scale;
+        const bool narrow = static_cast<float>(panel_rect.rect.width) < 40 * scale;
         if (narrow) continue;
         ImGui::GetBackgroundDrawList()->PushClipRect(
-            {static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
-            {static_cast<float>(place.rect.x + place.rect.width),
-             static_cast<float>(place.rect.y + place.rect.height)});
-        if (place.panel == 2) {
+            {static_cast<float>(panel_rect.rect.x), static_cast<float>(panel_rect.rect.y)},
+            {static_cast<float>(panel_rect.rect.x + panel_rect.rect.width),
+             static_cast<float>(panel_rect.rect.y + panel_rect.rect.height)});
+        if (panel_rect.panel == 2) {
             const std::string kind = fmt::format(
                 "{} difference of {}: {} (right) and {} (left)", viewer::nameOf(state.look.difference),
                 debugMode(shown.order.look.channel()).name, shown.panels[1].name, shown.panels[0].name);
@@ -192,7 +192,7 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
             if (shown.difference && !shown.difference->missing.empty())
                 drawOutlined(x, y + ImGui::GetTextLineHeightWithSpacing(), grey, shown.difference->missing);
         } else {
-            const Panel& panel = shown.panels.at(place.panel);
+            const Panel& panel = shown.panels.at(panel_rect.panel);
             drawOutlined(x, y, white,
                          fmt::format("{}: {}", panel.name, debugMode(shown.order.look.channel()).name));
             if (!panel.missing.empty())
@@ -202,9 +202,10 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
     }
 }
 
-void wipeLine(const InterfaceState& state, const CanvasRect& canvas, const std::vector<PanelRect>& places,
-              float scale) {
-    if (state.canvas.layout != Layout::wipe || places.empty() || state.look.difference != Difference::none)
+void wipeLine(const InterfaceState& state, const CanvasRect& canvas,
+              const std::vector<PanelRect>& panel_rects, float scale) {
+    if (state.canvas.layout != Layout::wipe || panel_rects.empty() ||
+        state.look.difference != Difference::none)
         return;
     const auto x =
         static_cast<float>(canvas.x) + static_cast<float>(std::lround(state.canvas.wipe * canvas.width));
@@ -245,10 +246,10 @@ void legend(const CanvasRect& canvas, float scale, const Color& color,
     }
 }
 
-void legends(const Contents& contents, const CanvasRect& canvas, const std::vector<PanelRect>& places,
+void legends(const Contents& contents, const CanvasRect& canvas, const std::vector<PanelRect>& panel_rects,
              float scale) {
     const DrawnView& shown = *contents.shown;
-    const bool of_difference = !places.empty() && places.front().panel == 2;
+    const bool of_difference = !panel_rects.empty() && panel_rects.front().panel == 2;
     if (shown.difference && of_difference) {
         if (!shown.difference->missing.empty()) return;
         const double top = shown.difference->top;
@@ -277,25 +278,25 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
 }
 
 // Writes values into large pixels.
-void values(const Contents& contents, const std::vector<PanelRect>& places, float scale) {
+void values(const Contents& contents, const std::vector<PanelRect>& panel_rects, float scale) {
     const DrawnView& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
-    for (const PanelRect& place : places) {
-        const auto [left, top, size] = place.placement;
-        if (size < valuesFrom * double{scale} || (place.panel == 2 && !shown.difference)) continue;
+    for (const PanelRect& panel_rect : panel_rects) {
+        const auto [left, top, size] = panel_rect.placement;
+        if (size < valuesFrom * double{scale} || (panel_rect.panel == 2 && !shown.difference)) continue;
         const Image& image =
-            place.panel == 2 ? shown.difference->values : shown.panels.at(place.panel).values;
+            panel_rect.panel == 2 ? shown.difference->values : shown.panels.at(panel_rect.panel).values;
         if (image.empty() || image.width != full.width || image.height != full.height) continue;
         ImDrawList* const list = ImGui::GetBackgroundDrawList();
-        list->PushClipRect({static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
-                           {static_cast<float>(place.rect.x + place.rect.width),
-                            static_cast<float>(place.rect.y + place.rect.height)});
-        const int x0 = std::max(0, static_cast<int>((place.rect.x - left) / size)),
+        list->PushClipRect({static_cast<float>(panel_rect.rect.x), static_cast<float>(panel_rect.rect.y)},
+                           {static_cast<float>(panel_rect.rect.x + panel_rect.rect.width),
+                            static_cast<float>(panel_rect.rect.y + panel_rect.rect.height)});
+        const int x0 = std::max(0, static_cast<int>((panel_rect.rect.x - left) / size)),
                   x1 = std::min(full.width - 1,
-                                static_cast<int>((place.rect.x + place.rect.width - left) / size));
-        const int y0 = std::max(0, static_cast<int>((place.rect.y - top) / size)),
+                                static_cast<int>((panel_rect.rect.x + panel_rect.rect.width - left) / size));
+        const int y0 = std::max(0, static_cast<int>((panel_rect.rect.y - top) / size)),
                   y1 = std::min(full.height - 1,
-                                static_cast<int>((place.rect.y + place.rect.height - top) / size));
+                                static_cast<int>((panel_rect.rect.y + panel_rect.rect.height - top) / size));
         const float line = ImGui::GetTextLineHeight();
         for (int y = y0; y <= y1; ++y)
             for (int x = x0; x <= x1; ++x)
@@ -323,14 +324,14 @@ std::optional<Projected> project(const View& view, const glm::dvec3& world, cons
 }
 
 // A circle of the light's range, and the light's position.
-void lights(const Contents& contents, const std::vector<PanelRect>& places, float scale) {
+void lights(const Contents& contents, const std::vector<PanelRect>& panel_rects, float scale) {
     const DrawnView& shown = *contents.shown;
     const Size& full = shown.order.subject.settings.size;
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
-    for (const PanelRect& place : places) {
-        list->PushClipRect({static_cast<float>(place.rect.x), static_cast<float>(place.rect.y)},
-                           {static_cast<float>(place.rect.x + place.rect.width),
-                            static_cast<float>(place.rect.y + place.rect.height)});
+    for (const PanelRect& panel_rect : panel_rects) {
+        list->PushClipRect({static_cast<float>(panel_rect.rect.x), static_cast<float>(panel_rect.rect.y)},
+                           {static_cast<float>(panel_rect.rect.x + panel_rect.rect.width),
+                            static_cast<float>(panel_rect.rect.y + panel_rect.rect.height)});
         int directional = 0;
         for (const Light& light : shown.lights) {
             const auto largest = double{std::max({light.color.x, light.color.y, light.color.z, 1e-6f})};
@@ -339,21 +340,23 @@ void lights(const Contents& contents, const std::vector<PanelRect>& places, floa
             };
             const ImU32 color = IM_COL32(part(light.color.x), part(light.color.y), part(light.color.z), 255);
             if (light.kind == LightKind::directional) {
-                drawOutlined(
-                    static_cast<float>(place.rect.x) + 12 * scale,
-                    static_cast<float>(place.rect.y) + (48 + 18 * static_cast<float>(directional++)) * scale,
-                    color,
-                    fmt::format("directional {} towards {:.2f},{:.2f},{:.2f}", light.name, light.direction.x,
-                                light.direction.y, light.direction.z));
+                drawOutlined(static_cast<float>(panel_rect.rect.x) + 12 * scale,
+                             static_cast<float>(panel_rect.rect.y) +
+                                 (48 + 18 * static_cast<float>(directional++)) * scale,
+                             color,
+                             fmt::format("directional {} towards {:.2f},{:.2f},{:.2f}", light.name,
+                                         light.direction.x, light.direction.y, light.direction.z));
                 continue;
             }
-            const std::optional<Projected> at = project(shown.view, light.position, place.placement, full);
+            const std::optional<Projected> at =
+                project(shown.view, light.position, panel_rect.placement, full);
             if (!at) continue;
             list->AddCircleFilled({at->x, at->y}, 4 * scale, color);
             list->AddCircle({at->x, at->y}, 5 * scale, black);
             if (!std::isfinite(light.range)) continue;
-            const std::optional<Projected> edge = project(
-                shown.view, light.position + shown.view.up() * double{light.range}, place.placement, full);
+            const std::optional<Projected> edge =
+                project(shown.view, light.position + shown.view.up() * double{light.range},
+                        panel_rect.placement, full);
             if (!edge) continue;
             const float radius = std::hypot(edge->x - at->x, edge->y - at->y);
             list->AddCircle({at->x, at->y}, std::min(radius, 8000.0f), color, 48, scale);
@@ -362,14 +365,14 @@ void lights(const Contents& contents, const std::vector<PanelRect>& places, floa
     }
 }
 
-void chosenPixel(const InterfaceState& state, const std::vector<PanelRect>& places, float scale) {
+void chosenPixel(const InterfaceState& state, const std::vector<PanelRect>& panel_rects, float scale) {
     if (!state.pixel) return;
-    for (const PanelRect& place : places) {
-        const auto [left, top, size] = place.placement;
+    for (const PanelRect& panel_rect : panel_rects) {
+        const auto [left, top, size] = panel_rect.placement;
         const auto x = static_cast<float>(left + state.pixel->x * size),
                    y = static_cast<float>(top + state.pixel->y * size);
         const auto side = static_cast<float>(size);
-        if (!place.rect.contains(double{x} + 0.5 * size, double{y} + 0.5 * size)) continue;
+        if (!panel_rect.rect.contains(double{x} + 0.5 * size, double{y} + 0.5 * size)) continue;
         ImDrawList* const list = ImGui::GetBackgroundDrawList();
         const float edge = std::max(0.0f, 4 * scale - 0.5f * side);
         list->AddRect({x - edge - 1, y - edge - 1}, {x + side + edge + 1, y + side + edge + 1}, black, 0, 0,
@@ -443,20 +446,20 @@ void drawOutlined(float x, float y, std::uint32_t color, const std::string& text
 }
 
 void drawInterface(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                   const std::vector<PanelRect>& places, double scale) {
+                   const std::vector<PanelRect>& panel_rects, double scale) {
     const auto s = static_cast<float>(scale);
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const int width = static_cast<int>(display.x), height = static_cast<int>(display.y);
     if (contents.shown) {
-        if (state.light_debug) lights(contents, places, s);
-        chosenPixel(state, places, s);
-        wipeLine(state, canvas, places, s);
-        values(contents, places, s);
-        legends(contents, canvas, places, s);
-        titles(state, contents, places, s);
+        if (state.light_debug) lights(contents, panel_rects, s);
+        chosenPixel(state, panel_rects, s);
+        wipeLine(state, canvas, panel_rects, s);
+        values(contents, panel_rects, s);
+        legends(contents, canvas, panel_rects, s);
+        titles(state, contents, panel_rects, s);
     }
     bar(state, contents, width, s);
-    foot(state, contents, places, width, height, s);
+    foot(state, contents, panel_rects, width, height, s);
     if (state.panels || state.information)
         drawPanels(state, contents,
                    {canvas.x + canvas.width, canvas.y, width - canvas.x - canvas.width, canvas.height}, s);

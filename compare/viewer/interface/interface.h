@@ -11,9 +11,9 @@
 
 namespace diptych::viewer {
 
-// Draws the interface and applies user actions to the state. `places`: the panels in the canvas.
+// Draws the interface and applies user actions to the state. `panel_rects`: the panels in the canvas.
 void drawInterface(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                   const std::vector<PanelRect>& places, double scale);
+                   const std::vector<PanelRect>& panel_rects, double scale);
 
 // Text over an image, outlined so that it is readable on any background.
 void drawOutlined(float x, float y, std::uint32_t color, const std::string& text);

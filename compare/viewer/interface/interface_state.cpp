@@ -79,9 +79,9 @@ std::string belowText(const Contents& contents) {
     return words;
 }
 
-std::vector<PanelRect> placesOf(const CanvasRect& canvas, const InterfaceState& state) {
-    return placesOf(canvas, state.subject.settings.size, state.canvas,
-                    state.look.difference != Difference::none);
+std::vector<PanelRect> panelRectsOf(const CanvasRect& canvas, const InterfaceState& state) {
+    return panelRectsOf(canvas, state.subject.settings.size, state.canvas,
+                        state.look.difference != Difference::none);
 }
 
 const std::string& sceneOf(const InterfaceState& state) {

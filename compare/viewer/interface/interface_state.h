@@ -88,7 +88,7 @@ std::array<int, barWidths.size()> barRows(int width, double scale);
 // The part of a window of this size for images; `scale` enlarges the interface.
 CanvasRect canvasOf(const InterfaceState& state, int width, int height, double scale);
 // The panels in that part.
-std::vector<PanelRect> placesOf(const CanvasRect& canvas, const InterfaceState& state);
+std::vector<PanelRect> panelRectsOf(const CanvasRect& canvas, const InterfaceState& state);
 
 // The rendered scene, as on the command line.
 const std::string& sceneOf(const InterfaceState& state);

@@ -23,18 +23,19 @@ double Mouse::wipePosition(const CanvasRect& canvas) const {
 }
 
 void Mouse::handle(const Input& input, const CanvasRect& canvas, double scale, bool taken) {
-    const std::vector<PanelRect> places = placesOf(canvas, state_);
+    const std::vector<PanelRect> panel_rects = panelRectsOf(canvas, state_);
     for (const Input::Button& button : input.buttons) {
         if (!button.down) {
             if (button.button != GLFW_MOUSE_BUTTON_LEFT) continue;
             // A quick drag begins and ends between two frames.
-            drag(canvas, places, button.x, button.y);
+            drag(canvas, panel_rects, button.x, button.y);
             drag_ = Drag::none;
             continue;
         }
         if (taken || !canvas.contains(button.x, button.y)) continue;
         if (button.button == GLFW_MOUSE_BUTTON_RIGHT) {
-            if (const auto under = pixelUnder(places, state_.subject.settings.size, button.x, button.y)) {
+            if (const auto under =
+                    pixelUnder(panel_rects, state_.subject.settings.size, button.x, button.y)) {
                 state_.pixel = under->pixel;
                 state_.open = Tab::pixel;
                 contents_.under = under;
@@ -45,26 +46,27 @@ void Mouse::handle(const Input& input, const CanvasRect& canvas, double scale, b
                                state_.look.difference == Difference::none &&
                                std::abs(button.x - wipePosition(canvas)) <= wipeReach * scale;
             drag_ = wipes ? Drag::wipe : state_.canvas.zoom > 0 ? Drag::image : Drag::look;
-            pivot_ = pivotAt(places, button.x, button.y);
+            pivot_ = pivotAt(panel_rects, button.x, button.y);
             cursor_x_ = button.x;
             cursor_y_ = button.y;
         }
     }
-    drag(canvas, places, input.x, input.y);
-    if (input.wheel != 0 && !taken && canvas.contains(input.x, input.y)) wheel(input, places);
+    drag(canvas, panel_rects, input.x, input.y);
+    if (input.wheel != 0 && !taken && canvas.contains(input.x, input.y)) wheel(input, panel_rects);
     contents_.under = canvas.contains(input.x, input.y) && !taken
-                          ? pixelUnder(places, state_.subject.settings.size, input.x, input.y)
+                          ? pixelUnder(panel_rects, state_.subject.settings.size, input.x, input.y)
                           : std::nullopt;
 }
 
-void Mouse::drag(const CanvasRect& canvas, const std::vector<PanelRect>& places, double x, double y) {
+void Mouse::drag(const CanvasRect& canvas, const std::vector<PanelRect>& panel_rects, double x, double y) {
     const double dx = x - cursor_x_, dy = y - cursor_y_;
     cursor_x_ = x;
     cursor_y_ = y;
-    if (drag_ != Drag::none && (dx != 0 || dy != 0)) dragged(canvas, places, dx, dy);
+    if (drag_ != Drag::none && (dx != 0 || dy != 0)) dragged(canvas, panel_rects, dx, dy);
 }
 
-void Mouse::dragged(const CanvasRect& canvas, const std::vector<PanelRect>& places, double dx, double dy) {
+void Mouse::dragged(const CanvasRect& canvas, const std::vector<PanelRect>& panel_rects, double dx,
+                    double dy) {
     switch (drag_) {
         case Drag::none:
             return;
@@ -76,9 +78,9 @@ void Mouse::dragged(const CanvasRect& canvas, const std::vector<PanelRect>& plac
             state_.canvas.centre_y -= dy / state_.canvas.zoom;
             return;
         case Drag::look: {
-            if (!camera_.canMove() || !contents_.shown || places.empty()) return;
+            if (!camera_.canMove() || !contents_.shown || panel_rects.empty()) return;
             // As if the image were dragged: its height is the field of view.
-            const double tall = state_.subject.settings.size.height * places.front().placement.scale;
+            const double tall = state_.subject.settings.size.height * panel_rects.front().placement.scale;
             const double angle =
                 contents_.shown->camera.fov_degrees * std::numbers::pi / 180 / std::max(tall, 1.0);
             if (state_.orbiting)
@@ -91,15 +93,15 @@ void Mouse::dragged(const CanvasRect& canvas, const std::vector<PanelRect>& plac
     }
 }
 
-void Mouse::wheel(const Input& input, const std::vector<PanelRect>& places) {
+void Mouse::wheel(const Input& input, const std::vector<PanelRect>& panel_rects) {
     if (state_.canvas.zoom > 0) {
-        const auto under = pixelUnder(places, state_.subject.settings.size, input.x, input.y);
+        const auto under = pixelUnder(panel_rects, state_.subject.settings.size, input.x, input.y);
         const double before = state_.canvas.zoom;
         state_.canvas.zoom =
             std::clamp(std::round(before * std::exp2(0.5 * input.wheel)), min_zoom, max_zoom);
         if (state_.canvas.zoom == before && input.wheel > 0)
             state_.canvas.zoom = std::min(before + 1, max_zoom);
-        if (!under || places.empty()) return;
+        if (!under || panel_rects.empty()) return;
         // The point under the cursor stays there.
         const double x = under->pixel.x + 0.5, y = under->pixel.y + 0.5, ratio = before / state_.canvas.zoom;
         state_.canvas.centre_x = x + (state_.canvas.centre_x - x) * ratio;
@@ -111,9 +113,9 @@ void Mouse::wheel(const Input& input, const std::vector<PanelRect>& places) {
 }
 
 // The world position of the pixel, once this view is rendered at full size; else the camera's target.
-glm::dvec3 Mouse::pivotAt(const std::vector<PanelRect>& places, double x, double y) const {
+glm::dvec3 Mouse::pivotAt(const std::vector<PanelRect>& panel_rects, double x, double y) const {
     const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
-    const auto under = pixelUnder(places, state_.subject.settings.size, x, y);
+    const auto under = pixelUnder(panel_rects, state_.subject.settings.size, x, y);
     const std::shared_ptr<const DrawnView>& shown = contents_.shown;
     if (!under || !shown || shown->depth.empty() ||
         ofBothPaths(shown->order.subject) != ofBothPaths(state_.subject))

@@ -32,10 +32,10 @@ private:
 
     double wipePosition(const CanvasRect& canvas) const;
     // The cursor moved.
-    void drag(const CanvasRect& canvas, const std::vector<PanelRect>& places, double x, double y);
-    void dragged(const CanvasRect& canvas, const std::vector<PanelRect>& places, double dx, double dy);
-    void wheel(const Input& input, const std::vector<PanelRect>& places);
-    glm::dvec3 pivotAt(const std::vector<PanelRect>& places, double x, double y) const;
+    void drag(const CanvasRect& canvas, const std::vector<PanelRect>& panel_rects, double x, double y);
+    void dragged(const CanvasRect& canvas, const std::vector<PanelRect>& panel_rects, double dx, double dy);
+    void wheel(const Input& input, const std::vector<PanelRect>& panel_rects);
+    glm::dvec3 pivotAt(const std::vector<PanelRect>& panel_rects, double x, double y) const;
 
     InterfaceState& state_;
     Contents& contents_;

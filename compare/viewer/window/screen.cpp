@@ -62,13 +62,13 @@ void Screen::makePresenter() {
 }
 
 void Screen::draw(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                  const std::vector<PanelRect>& places) {
+                  const std::vector<PanelRect>& panel_rects) {
     presenter_->beginFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-    drawInterface(state, contents, canvas, places, scale_);
+    drawInterface(state, contents, canvas, panel_rects, scale_);
     ImGui::Render();
-    compose(state, contents, canvas, places);
+    compose(state, contents, canvas, panel_rects);
     if (presenter_->show(pixels_, ImGui::GetDrawData())) {
         presenters_ = 0;
         return;
@@ -81,7 +81,7 @@ void Screen::draw(InterfaceState& state, const Contents& contents, const CanvasR
 }
 
 void Screen::compose(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                     const std::vector<PanelRect>& places) {
+                     const std::vector<PanelRect>& panel_rects) {
     const Composed now{contents.shown, canvas, state.canvas, state.look.difference != Difference::none};
     if (!now.shown || now == composed_) return;
     composed_ = now;
@@ -89,7 +89,7 @@ void Screen::compose(const InterfaceState& state, const Contents& contents, cons
     pixels_.y = canvas.y;
     pixels_.width = canvas.width;
     pixels_.height = canvas.height;
-    pixels_.data = composed(*now.shown, canvas, places, presenter_->isBgr());
+    pixels_.data = composed(*now.shown, canvas, panel_rects, presenter_->isBgr());
     ++pixels_.version;
 }
 

@@ -24,7 +24,7 @@ public:
     const ValidationLog& log() const { return log_; }
     // Draws one frame. Throws std::runtime_error if the window's device is lost several times in a row.
     void draw(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-              const std::vector<PanelRect>& places);
+              const std::vector<PanelRect>& panel_rects);
 
 private:
     // Dear ImGui's context and its event source.
@@ -46,7 +46,7 @@ private:
 
     void makePresenter();
     void compose(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
-                 const std::vector<PanelRect>& places);
+                 const std::vector<PanelRect>& panel_rects);
 
     const Window& window_;
     const std::function<void(const std::string&)> say_;

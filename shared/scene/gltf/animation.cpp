@@ -89,12 +89,12 @@ private:
     std::map<std::string_view, std::set<int>> contained_;
     const tinygltf::Animation* file_ = nullptr;
     // (the file's sampler, shape) -> index of keyframes
-    std::map<std::pair<int, OutputShape>, int> place_;
+    std::map<std::pair<int, OutputShape>, int> keyframes_index_;
     std::set<ChannelTarget> moved_;
 
     void animation(std::size_t index) {
         file_ = &model.animations[index];
-        place_.clear();
+        keyframes_index_.clear();
         moved_.clear();
         const std::string who = fmt::format("animation {}", index);
         const Json* channels = memberOf(elementOf(arrayAt(model.rest, "/animations"), index), "channels");
@@ -131,21 +131,22 @@ private:
             propertiesOf(target.part).width,
             target.part == AnimatedPart::weights || target.part == AnimatedPart::mesh_weights,
             target.part == AnimatedPart::rotation, pointer != nullptr};
-        const auto known = place_.find({file.sampler, shape});
-        const int keys = known == place_.end() ? static_cast<int>(result.keyframes.size()) : known->second;
+        const auto known = keyframes_index_.find({file.sampler, shape});
+        const int keys =
+            known == keyframes_index_.end() ? static_cast<int>(result.keyframes.size()) : known->second;
         Keyframes fresh;
-        if (known == place_.end()) fresh = keyframes(file.sampler, shape, who);
+        if (known == keyframes_index_.end()) fresh = keyframes(file.sampler, shape, who);
         const Keyframes& these =
-            known == place_.end() ? fresh : result.keyframes[static_cast<std::size_t>(keys)];
+            known == keyframes_index_.end() ? fresh : result.keyframes[static_cast<std::size_t>(keys)];
         checkWeights(these, target, who);
-        noteKeys(these, target, known == place_.end(), fmt::format("{}: {}", animation, who));
+        noteKeys(these, target, known == keyframes_index_.end(), fmt::format("{}: {}", animation, who));
         AnimationChannel made{.keyframes = keys, .part = target.part, .element = target.element};
         if (isNodePart(target.part))
             made.node = scene_node[static_cast<std::size_t>(target.object)];
         else
             made.object = target.object;
-        if (known == place_.end()) {
-            place_[{file.sampler, shape}] = keys;
+        if (known == keyframes_index_.end()) {
+            keyframes_index_[{file.sampler, shape}] = keys;
             result.keyframes.push_back(std::move(fresh));
         }
         if (hasTransform(target.part)) {

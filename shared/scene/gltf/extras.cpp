@@ -74,7 +74,8 @@ void addExtras(const Json& file, int index, Light& light, NoteList& notes) {
         });
 }
 
-void attachLights(const Json& file, int index, const std::vector<int>& place, Scene& scene, NoteList& notes) {
+void attachLights(const Json& file, int index, const std::vector<int>& node_index, Scene& scene,
+                  NoteList& notes) {
     const std::string who = fmt::format("scene {}: extras: {}", index, ours);
     const Json* own = ourExtras(file, {"lights"}, who, notes);
     const Json* lights = own ? memberOf(*own, "lights") : nullptr;
@@ -84,10 +85,10 @@ void attachLights(const Json& file, int index, const std::vector<int>& place, Sc
         readOrNote(notes, [&] {
             const std::string name = fmt::format("{}: light {}", who, i);
             Json object = (*lights)[i];
-            const int node = takeNode(object, place.size(), name);
+            const int node = takeNode(object, node_index.size(), name);
             Light light = lightFromJson(object, name);
             if (node >= 0) {
-                light.node = place[static_cast<std::size_t>(node)];
+                light.node = node_index[static_cast<std::size_t>(node)];
                 if (light.node < 0) fail(name, fmt::format("node: {} is not in the scene", node));
                 if (light.name.empty()) light.name = scene.nodes[static_cast<std::size_t>(light.node)].name;
             }

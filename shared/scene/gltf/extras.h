@@ -29,9 +29,9 @@ class NoteList;
 // Applies the extras of `file`, light `index` of KHR_lights_punctual, to `light`.
 void addExtras(const nlohmann::json& file, int index, Light& light, NoteList& notes);
 
-// Adds the lights in the extras of `file`, scene `index`. `place` maps the file's nodes to Scene::nodes, -1:
-// not in the scene.
-void attachLights(const nlohmann::json& file, int index, const std::vector<int>& place, Scene& scene,
+// Adds the lights in the extras of `file`, scene `index`. `node_index` maps the file's nodes to Scene::nodes,
+// -1: not in the scene.
+void attachLights(const nlohmann::json& file, int index, const std::vector<int>& node_index, Scene& scene,
                   NoteList& notes);
 
 // Materials:

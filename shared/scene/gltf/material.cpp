@@ -219,14 +219,14 @@ void forImages(const Scene& scene, const Use& use) {
 void keepImagesInUse(Scene& scene, std::size_t imageCount, std::vector<int>& imageOf) {
     std::vector<bool> used(imageCount, false);
     forImages(scene, [&](std::size_t, std::size_t image) { used[image] = true; });
-    std::vector<int> placeOf(imageCount, -1);
+    std::vector<int> newIndex(imageCount, -1);
     for (std::size_t i = 0; i < imageCount; ++i) {
         if (!used[i]) continue;
-        placeOf[i] = static_cast<int>(imageOf.size());
+        newIndex[i] = static_cast<int>(imageOf.size());
         imageOf.push_back(static_cast<int>(i));
     }
     for (Texture& texture : scene.textures)
-        if (texture.image >= 0) texture.image = placeOf[static_cast<std::size_t>(texture.image)];
+        if (texture.image >= 0) texture.image = newIndex[static_cast<std::size_t>(texture.image)];
     scene.images.resize(imageOf.size());
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 struct SkinReader : MotionSource {
     void read() {
-        std::map<int, int> place;  // the file's skin -> index in Scene::skins
+        std::map<int, int> skin_index;  // the file's skin -> index in Scene::skins
         const std::size_t before = scene.notes.size();
         for (std::size_t n = 0; n < model.nodes.size(); ++n) {
             const tinygltf::Node& file = model.nodes[n];
@@ -26,7 +26,7 @@ struct SkinReader : MotionSource {
                     fmt::format("node {}: has a skin, but its mesh has no JOINTS_0: drawn unskinned", n));
                 continue;
             }
-            const auto [at, fresh] = place.emplace(file.skin, static_cast<int>(scene.skins.size()));
+            const auto [at, fresh] = skin_index.emplace(file.skin, static_cast<int>(scene.skins.size()));
             if (fresh) scene.skins.push_back(skin(file.skin));
             nodeOf(n).skin = at->second;
         }

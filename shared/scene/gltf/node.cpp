@@ -219,10 +219,10 @@ std::vector<int> readNodes(const Model& model, int chosen, Scene& scene) {
     refuseCircles(parent);
     const std::vector<bool> inScene = reached(model, chosen, parent);
 
-    std::vector<int> place(model.nodes.size(), -1);  // the file's node -> index in Scene::nodes
+    std::vector<int> node_index(model.nodes.size(), -1);  // the file's node -> index in Scene::nodes
     int count = 0;
-    for (std::size_t n = 0; n < place.size(); ++n)
-        if (inScene[n]) place[n] = count++;
+    for (std::size_t n = 0; n < node_index.size(); ++n)
+        if (inScene[n]) node_index[n] = count++;
 
     NoteList nodeNotes("nodes"), notes("lights and cameras");
     std::vector<std::pair<int, Camera>> cameras;  // (the file's node index, camera)
@@ -231,7 +231,7 @@ std::vector<int> readNodes(const Model& model, int chosen, Scene& scene) {
         const tinygltf::Node& file = model.nodes[n];
         Node node;
         node.name = file.name;
-        node.parent = parent[n] < 0 ? -1 : place[static_cast<std::size_t>(parent[n])];
+        node.parent = parent[n] < 0 ? -1 : node_index[static_cast<std::size_t>(parent[n])];
         node.parent_from_node = transformOf(file, nodeName(n), nodeNotes);
         node.mesh = file.mesh;
         if (file.camera >= 0)
@@ -240,7 +240,7 @@ std::vector<int> readNodes(const Model& model, int chosen, Scene& scene) {
                                            fmt::format("camera {}", file.camera), notes);
                 camera.node_name = file.name;
                 if (camera.name.empty()) camera.name = file.name;
-                camera.node = place[n];
+                camera.node = node_index[n];
                 camera.source = file.camera;
                 cameras.emplace_back(file.camera, camera);
             });
@@ -250,7 +250,7 @@ std::vector<int> readNodes(const Model& model, int chosen, Scene& scene) {
             Light light = readLight(own, fmt::format("light {}", index), notes);
             addExtras(own, index, light, notes);
             if (light.name.empty()) light.name = file.name;
-            light.node = place[n];
+            light.node = node_index[n];
             light.source = index;
             scene.lights.push_back(light);
         }
@@ -258,13 +258,13 @@ std::vector<int> readNodes(const Model& model, int chosen, Scene& scene) {
     }
     if (chosen >= 0)
         attachLights(elementOf(arrayAt(model.rest, "/scenes"), static_cast<std::size_t>(chosen)), chosen,
-                     place, scene, notes);
+                     node_index, scene, notes);
     nodeNotes.moveTo(scene.notes);
     notes.moveTo(scene.notes);
     std::stable_sort(cameras.begin(), cameras.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& [index, camera] : cameras) scene.cameras.push_back(camera);
-    return place;
+    return node_index;
 }
 
 }  // namespace diptych::gltf

@@ -132,16 +132,16 @@ private:
             return;
         }
         constexpr std::uint32_t untouched = ~0u;
-        std::vector<std::uint32_t> place(count_, untouched);
-        for (const std::uint32_t i : indices) place[i] = 0;
+        std::vector<std::uint32_t> new_index(count_, untouched);
+        for (const std::uint32_t i : indices) new_index[i] = 0;
         touched_.clear();
         for (std::uint32_t v = 0; v < count_; ++v)
-            if (place[v] != untouched) {
-                place[v] = static_cast<std::uint32_t>(touched_.size());
+            if (new_index[v] != untouched) {
+                new_index[v] = static_cast<std::uint32_t>(touched_.size());
                 touched_.push_back(v);
             }
         which = touched_.size() == count_ ? Selection() : Selection(touched_);
-        for (std::uint32_t& i : indices) i = place[i];
+        for (std::uint32_t& i : indices) i = new_index[i];
     }
 
     void readPositions() {

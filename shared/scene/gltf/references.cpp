@@ -59,7 +59,7 @@ void References::names(std::string_view collection, std::size_t item) {
 
 void References::broken(std::string_view collection, std::size_t item, std::string line) {
     const Id id = find(collection).first + static_cast<Id>(item);
-    if (place_.emplace(id, broken_.size()).second) broken_.emplace_back(id, std::move(line));
+    if (index_.emplace(id, broken_.size()).second) broken_.emplace_back(id, std::move(line));
 }
 
 std::vector<References::Fault> References::unusable() const {

@@ -58,7 +58,7 @@ private:
     Id current_ = none;
     std::vector<std::pair<Id, Id>> edges_;            // (item, item that refers to it)
     std::vector<std::pair<Id, std::string>> broken_;  // in order of discovery
-    std::map<Id, std::size_t> place_;                 // index in broken_
+    std::map<Id, std::size_t> index_;                 // index in broken_
 
     const Collection& find(std::string_view name) const;
 };

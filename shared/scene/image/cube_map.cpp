@@ -26,12 +26,12 @@ constexpr std::array<FaceAxes, 6> axesOfFaces{{{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}
                                                {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}}}};
 
 // A position on a face, in texels from its left and top edges.
-struct Place {
+struct FacePosition {
     std::size_t face;
     double x, y;
 };
 
-Place placeOf(const CubeMap& cube, const glm::dvec3& d) {
+FacePosition facePosition(const CubeMap& cube, const glm::dvec3& d) {
     const glm::dvec3 a = glm::abs(d);
     const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
     const std::size_t face = 2 * static_cast<std::size_t>(axis) + (d[axis] < 0 ? 1 : 0);
@@ -40,16 +40,16 @@ Place placeOf(const CubeMap& cube, const glm::dvec3& d) {
             (1 - glm::dot(d, axes.up) / a[axis]) / 2 * cube.side};
 }
 
-glm::dvec3 directionOf(const CubeMap& cube, const Place& place) {
-    const FaceAxes& axes = axesOfFaces[place.face];
-    return axes.forward + axes.right * (2 * place.x / cube.side - 1) -
-           axes.up * (2 * place.y / cube.side - 1);
+glm::dvec3 directionOf(const CubeMap& cube, const FacePosition& position) {
+    const FaceAxes& axes = axesOfFaces[position.face];
+    return axes.forward + axes.right * (2 * position.x / cube.side - 1) -
+           axes.up * (2 * position.y / cube.side - 1);
 }
 
 // Coordinates beyond an edge select the texel of the adjacent face in that direction.
 glm::dvec3 texelOf(const CubeMap& cube, std::size_t face, int x, int y) {
     if (x < 0 || y < 0 || x >= cube.side || y >= cube.side) {
-        const Place there = placeOf(cube, directionOf(cube, {face, x + 0.5, y + 0.5}));
+        const FacePosition there = facePosition(cube, directionOf(cube, {face, x + 0.5, y + 0.5}));
         face = there.face;
         x = std::clamp(static_cast<int>(there.x), 0, cube.side - 1);
         y = std::clamp(static_cast<int>(there.y), 0, cube.side - 1);
@@ -61,7 +61,7 @@ glm::dvec3 texelOf(const CubeMap& cube, std::size_t face, int x, int y) {
 }  // namespace
 
 glm::dvec3 radianceOf(const CubeMap& cube, const glm::dvec3& direction) {
-    const Place at = placeOf(cube, direction);
+    const FacePosition at = facePosition(cube, direction);
     const double left = std::floor(at.x - 0.5), top = std::floor(at.y - 0.5);
     const double fx = at.x - 0.5 - left, fy = at.y - 0.5 - top;
     const int x = static_cast<int>(left), y = static_cast<int>(top);
@@ -70,20 +70,24 @@ glm::dvec3 radianceOf(const CubeMap& cube, const glm::dvec3& direction) {
 }
 
 Image latLongOf(const CubeMap& cube, const glm::dmat3& cube_from_world) {
-    constexpr int places = 2;  // samples per axis
+    constexpr int samples_per_axis = 2;  // samples per axis
     using std::numbers::pi;
     Image image(4 * cube.side, 2 * cube.side, 3);
     tbb::parallel_for(0, image.height, [&](int y) {
         for (int x = 0; x < image.width; ++x) {
             glm::dvec3 sum(0);
-            for (int k = 0; k < places * places; ++k) {
-                const double azimuth = 2 * pi * (x + (k % places + 0.5) / places) / image.width - pi,
-                             polar = pi * (y + (k / places + 0.5) / places) / image.height;
+            for (int k = 0; k < samples_per_axis * samples_per_axis; ++k) {
+                const double azimuth = 2 * pi * (x + (k % samples_per_axis + 0.5) / samples_per_axis) /
+                                           image.width -
+                                       pi,
+                             polar =
+                                 pi * (y + (k / samples_per_axis + 0.5) / samples_per_axis) / image.height;
                 sum += radianceOf(
                     cube, cube_from_world * glm::dvec3(std::sin(polar) * std::sin(azimuth), std::cos(polar),
                                                        -std::sin(polar) * std::cos(azimuth)));
             }
-            for (int c = 0; c < 3; ++c) image.at(x, y, c) = static_cast<float>(sum[c] / (places * places));
+            for (int c = 0; c < 3; ++c)
+                image.at(x, y, c) = static_cast<float>(sum[c] / (samples_per_axis * samples_per_axis));
         }
     });
     return image;

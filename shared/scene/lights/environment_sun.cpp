@@ -178,7 +178,7 @@ struct Moments {
 
 // Integrates quarters of texels, in which the image is bilinear, by Gauss quadrature with 3 x 3 points.
 Moments momentsOf(const SkyTexels& sky, const std::unordered_map<std::size_t, glm::dvec3>& radiance) {
-    static constexpr std::array<double, 3> places{0.1127016653792583, 0.5, 0.8872983346207417},
+    static constexpr std::array<double, 3> nodes{0.1127016653792583, 0.5, 0.8872983346207417},
         weights{5 / 18.0, 4 / 9.0, 5 / 18.0};
     const auto at = [&](int x, int y) {
         const auto found = radiance.find(sky.index(x, y));
@@ -193,7 +193,7 @@ Moments momentsOf(const SkyTexels& sky, const std::unordered_map<std::size_t, gl
                          d = at(left + 1, top + 1);
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
-                const double u = x + 0.5 * (right + places[i]), v = y + 0.5 * (down + places[j]);
+                const double u = x + 0.5 * (right + nodes[i]), v = y + 0.5 * (down + nodes[j]);
                 const double fx = u - 0.5 - left, fy = v - 0.5 - top;
                 const double sine = std::sin(pi * v / sky.image().height);
                 const glm::dvec3 light = ((a * (1 - fx) + b * fx) * (1 - fy) + (c * (1 - fx) + d * fx) * fy) *

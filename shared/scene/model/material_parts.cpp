@@ -36,7 +36,9 @@ void setPart(Material& m, MaterialParts& parts, AnimatedPart part, std::size_t s
         for (int c = 0; c < 3; ++c)
             m.emissive[c] = static_cast<float>(std::min(parts.emissive[c] * parts.emissive_strength, max));
     };
-    const auto place = [&] { setTransform(m.*materialSlots[slot].texture, parts.transforms[slot]); };
+    const auto setSlotTransform = [&] {
+        setTransform(m.*materialSlots[slot].texture, parts.transforms[slot]);
+    };
     switch (part) {
 #define DIPTYCH_SET(type, name, ...) \
     case AnimatedPart::name:         \
@@ -64,15 +66,15 @@ void setPart(Material& m, MaterialParts& parts, AnimatedPart part, std::size_t s
             break;
         case AnimatedPart::texture_offset:
             parts.transforms[slot].offset = {v[0], v[1]};
-            place();
+            setSlotTransform();
             break;
         case AnimatedPart::texture_rotation:
             parts.transforms[slot].rotation = v[0];
-            place();
+            setSlotTransform();
             break;
         case AnimatedPart::texture_scale:
             parts.transforms[slot].scale = {v[0], v[1]};
-            place();
+            setSlotTransform();
             break;
         default:  // parts of nodes, lights and cameras
             break;

@@ -41,13 +41,13 @@ void gather(Primitive& primitive, const std::vector<std::uint32_t>& source) {
 TangentGroups groupsOf(const TangentSpace& space, const std::vector<std::uint32_t>& indices,
                        const std::vector<std::uint32_t>& group) {
     constexpr std::uint32_t unset = ~0u;
-    std::vector<std::uint32_t> place(space.groupCount(), unset);
+    std::vector<std::uint32_t> new_index(space.groupCount(), unset);
     std::uint32_t count = 0;
     for (const std::uint32_t g : group)
-        if (g != unset && place[g] == unset) place[g] = count++;
+        if (g != unset && new_index[g] == unset) new_index[g] = count++;
     TangentGroups groups;
     groups.of_vertex.reserve(group.size());
-    for (const std::uint32_t g : group) groups.of_vertex.push_back(g == unset ? count : place[g]);
+    for (const std::uint32_t g : group) groups.of_vertex.push_back(g == unset ? count : new_index[g]);
     // Counting sort, by group, of the corners that have derivatives.
     std::vector<std::uint32_t> next(std::size_t{count} + 1, 0);
     const auto visit = [&](const auto& use) {

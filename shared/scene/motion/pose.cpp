@@ -143,15 +143,15 @@ std::vector<glm::dmat4> worldFromMesh(const Skin& skin, const std::vector<glm::d
 class Weights {
 public:
     Weights(const Scene& scene, NodeMotion& motion, Pose& pose)
-        : scene_(scene), motion_(motion), pose_(pose), place_of_mesh_(scene.meshes.size(), unknown) {}
+        : scene_(scene), motion_(motion), pose_(pose), index_of_mesh_(scene.meshes.size(), unknown) {}
 
     // Index of the node's weights in Pose::weights; -1 if all are 0.
-    int placeOf(int index) {
+    int indexOf(int index) {
         const Node& node = scene_.nodes[static_cast<std::size_t>(index)];
         if (const auto moved = motion_.weights.find(index); moved != motion_.weights.end())
             return add(std::move(moved->second));
         if (node.weights >= 0) return addCopy(scene_.weights[static_cast<std::size_t>(node.weights)]);
-        int& slot = place_of_mesh_[static_cast<std::size_t>(node.mesh)];
+        int& slot = index_of_mesh_[static_cast<std::size_t>(node.mesh)];
         if (slot != unknown) return slot;
         const auto moved = motion_.mesh_weights.find(node.mesh);
         return slot = moved != motion_.mesh_weights.end()
@@ -172,7 +172,7 @@ private:
     const Scene& scene_;
     NodeMotion& motion_;
     Pose& pose_;
-    std::vector<int> place_of_mesh_;
+    std::vector<int> index_of_mesh_;
 };
 
 PosedBox boxOf(const Scene& scene, const Pose& pose, const Instance& instance) {
@@ -228,7 +228,7 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
         const std::vector<Primitive>& primitives = primitivesOf(scene, node);
-        const int placeOfWeights = primitives.empty() ? -1 : weights.placeOf(static_cast<int>(n));
+        const int weightsIndex = primitives.empty() ? -1 : weights.indexOf(static_cast<int>(n));
         for (std::size_t p = 0; p < primitives.size(); ++p) {
             const glm::dmat4 worldFromNode = worldFromPrimitive(scene, world, n, primitives[p]);
             // At rest, leaveOutWhatIsBeyond() has checked all vertices.
@@ -247,7 +247,7 @@ Pose poseAt(const Scene& scene, double seconds, const std::string& animation) {
                                           .copy = static_cast<int>(c),
                                           .world_from_object = worldFromObject,
                                           .skin = primitives[p].joint_sets.empty() ? -1 : node.skin,
-                                          .weights = placeOfWeights,
+                                          .weights = weightsIndex,
                                           .map_rotated = mapRotated});
             }
         }

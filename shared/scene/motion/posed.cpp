@@ -124,7 +124,7 @@ private:
     const std::vector<double>* weights_;              // by target; nullptr: no morph target applies
 };
 
-glm::dvec3 placed(const glm::dvec4& p) {
+glm::dvec3 withinLimits(const glm::dvec4& p) {
     for (int c = 0; c < 3; ++c)
         if (!(std::abs(p[c]) <= maxCoordinate)) return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
     return glm::dvec3(p);
@@ -173,7 +173,7 @@ std::vector<glm::dvec3> posedPositions(const Scene& scene, const Pose& pose, con
     const Posing posing(scene, pose, instance);
     std::vector<glm::dvec3> result(posing.primitive().positions.size());
     for (std::size_t v = 0; v < result.size(); ++v)
-        result[v] = placed(posing.worldFrom(v) * glm::dvec4(posing.position(v), 1));
+        result[v] = withinLimits(posing.worldFrom(v) * glm::dvec4(posing.position(v), 1));
     return result;
 }
 
@@ -192,7 +192,7 @@ PosedVertices posedVertices(const Scene& scene, const Pose& pose, const Instance
     if (instance.map_rotated) result.bitangents = mirroredSign(tangentMap(scene.materials[material]), map);
     for (std::size_t v = 0; v < count; ++v) {
         const glm::dmat4 world = posing.worldFrom(v);
-        result.positions[v] = placed(world * glm::dvec4(posing.position(v), 1));
+        result.positions[v] = withinLimits(world * glm::dvec4(posing.position(v), 1));
         result.normals[v] = handedness * safeUnit(posing.turned(v, posing.normal(v), blended_normals));
         result.tangents[v] = safeUnit(glm::dmat3(world) * result.tangents[v]);
     }

@@ -33,12 +33,12 @@ Plot plotOf(const std::vector<PlotPoint>& points) {
 
 // Well-formed, of the shape that pages may have, and without a length that is no number.
 void expectSound(const Plot& plot) {
-    for (const PlotTarget place : {PlotTarget::file, PlotTarget::page}) {
-        const std::string svg = svgOf(plot, place);
+    for (const PlotTarget target : {PlotTarget::file, PlotTarget::page}) {
+        const std::string svg = svgOf(plot, target);
         EXPECT_EQ(markupFault(svg), "");
         EXPECT_NO_THROW(checkPlot(svg));
         EXPECT_EQ(allOf(svg, "([a-z0-9]+=\"[^\"]*(?:nan|inf)\\b[^\"]*\")"), std::vector<std::string>());
-        EXPECT_EQ(svg.find("xmlns=") != svg.npos, place == PlotTarget::file);
+        EXPECT_EQ(svg.find("xmlns=") != svg.npos, target == PlotTarget::file);
     }
 }
 
@@ -101,7 +101,7 @@ TEST(PlotAxis, PositionsAreLogarithmicLinearOrEven) {
     const Axis linear({.logarithmic = false}, {}, {4}, 100, 0, true);
     EXPECT_EQ(linear.at(0), 100) << "from 0";
     EXPECT_EQ(linear.at(1), 75);
-    const Axis even({.places = {"a", "b"}}, {}, {}, 0, 100, false);
+    const Axis even({.categories = {"a", "b"}}, {}, {}, 0, 100, false);
     EXPECT_EQ(even.at(0), 25);
     EXPECT_EQ(even.at(1), 75);
     EXPECT_EQ(even.ticks().at(1).text, "b");
@@ -136,7 +136,7 @@ TEST(Plot, AnyDataIsDrawn) {
         for (const double y : {0.0, 1.0, infinite, none})
             expectSound(
                 plotOf({{.x = x, .y = y, .across = {x / 2, 2 * x}, .up = {0, infinite}, .label = "a"}}));
-    Plot bars{.panels = {{.across = {.logarithmic = false}, .up = {.places = {"a"}}}}, .parts = {"b"}};
+    Plot bars{.panels = {{.across = {.logarithmic = false}, .up = {.categories = {"a"}}}}, .parts = {"b"}};
     for (const PlotRange& across : {PlotRange{0, 0}, {0, 1}, {0, infinite}, {none, 1}, {-1e308, 1e308}})
         bars.panels[0].bars.push_back({across, barAt(0), 99, "c"});
     expectSound(bars);
@@ -150,14 +150,14 @@ TEST(Plot, AnyDataIsDrawn) {
 TEST(Plot, ForeignTextIsEscapedEverywhere) {
     const std::string hostile = "<b>\"a' & </svg>\x01";
     Plot plot{.title = hostile, .parts = {hostile}, .interval = "i" + hostile, .chooses = true};
-    PlotPanel panel{.across = {.name = hostile, .places = {hostile}}, .up = {.name = hostile}};
+    PlotPanel panel{.across = {.name = hostile, .categories = {hostile}}, .up = {.name = hostile}};
     panel.pointsOf("s" + hostile, {}).push_back({.text = hostile, .row = 1, .label = hostile});
     panel.bars = {{{0, 1}, {0, 1}, 0, hostile}};
     panel.limits = {{.x = 1, .name = "l" + hostile}};
     plot.panels = {panel};
     expectSound(plot);
-    for (const PlotTarget place : {PlotTarget::file, PlotTarget::page}) {
-        const std::string svg = svgOf(plot, place);
+    for (const PlotTarget target : {PlotTarget::file, PlotTarget::page}) {
+        const std::string svg = svgOf(plot, target);
         EXPECT_EQ(svg.find("<b>"), svg.npos);
         EXPECT_GE(countOf(svg, "&lt;b&gt;&quot;a&#39; &amp; &lt;/svg&gt;\ufffd"), 10u);
     }

@@ -45,15 +45,15 @@ TEST(ViewerCanvas, TheWipesHalvesAreTheImagesPixels) {
     const CanvasRect canvas{0, 30, 12, 8};
     CanvasView view;
     view.wipe = 5.0 / 12;
-    const auto places = placesOf(canvas, shown.size, view, false);
-    const auto pixels = composed(shown, canvas, places, false);
+    const auto panel_rects = panelRectsOf(canvas, shown.size, view, false);
+    const auto pixels = composed(shown, canvas, panel_rects, false);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 12; ++x) {
             EXPECT_EQ(inCanvas(pixels, 12, x, y), inImage(shown.panels[x < 5 ? 0 : 1].image, x, y))
                 << x << "," << y;
         }
     view.other = true;  // flicker
-    const auto swapped = composed(shown, canvas, placesOf(canvas, shown.size, view, false), false);
+    const auto swapped = composed(shown, canvas, panelRectsOf(canvas, shown.size, view, false), false);
     EXPECT_EQ(inCanvas(swapped, 12, 0, 0), inImage(shown.panels[1].image, 0, 0));
     EXPECT_EQ(inCanvas(swapped, 12, 11, 0), inImage(shown.panels[0].image, 11, 0));
 }
@@ -63,7 +63,7 @@ TEST(ViewerCanvas, BlueComesFirstWhereTheWindowHasItSo) {
     const CanvasRect canvas{0, 0, 2, 2};
     CanvasView view;
     view.layout = Layout::single;
-    const auto pixels = composed(shown, canvas, placesOf(canvas, shown.size, view, false), true);
+    const auto pixels = composed(shown, canvas, panelRectsOf(canvas, shown.size, view, false), true);
     const Rgb8Pixel bgr = inCanvas(pixels, 2, 1, 1), rgb = inImage(shown.panels[1].image, 1, 1);
     EXPECT_EQ(bgr, (Rgb8Pixel{rgb.b, rgb.g, rgb.r}));
 }
@@ -74,12 +74,12 @@ TEST(ViewerCanvas, AnImageFillsItsPanel) {
     const CanvasRect canvas{0, 0, 37, 20};
     CanvasView view;
     view.layout = Layout::single;
-    const auto places = placesOf(canvas, shown.size, view, false);
-    ASSERT_EQ(places.size(), 1u);
-    EXPECT_DOUBLE_EQ(places[0].placement.scale, 3.7);
-    const auto pixels = composed(shown, canvas, places, false);
-    const int left = static_cast<int>(places[0].placement.left),
-              top = static_cast<int>(places[0].placement.top);
+    const auto panel_rects = panelRectsOf(canvas, shown.size, view, false);
+    ASSERT_EQ(panel_rects.size(), 1u);
+    EXPECT_DOUBLE_EQ(panel_rects[0].placement.scale, 3.7);
+    const auto pixels = composed(shown, canvas, panel_rects, false);
+    const int left = static_cast<int>(panel_rects[0].placement.left),
+              top = static_cast<int>(panel_rects[0].placement.top);
     EXPECT_EQ(left, 0);
     EXPECT_EQ(top, 1);
     EXPECT_EQ(inCanvas(pixels, 37, 0, 1), inImage(shown.panels[1].image, 0, 0));
@@ -87,22 +87,22 @@ TEST(ViewerCanvas, AnImageFillsItsPanel) {
     EXPECT_EQ(inCanvas(pixels, 37, 4, 1), inImage(shown.panels[1].image, 1, 0));
     EXPECT_EQ(inCanvas(pixels, 37, 36, 18), inImage(shown.panels[1].image, 9, 4));
     EXPECT_EQ(inCanvas(pixels, 37, 0, 0), (Rgb8Pixel{26, 26, 28}));
-    const auto under = pixelUnder(places, shown.size, 4.5, 1.5);
+    const auto under = pixelUnder(panel_rects, shown.size, 4.5, 1.5);
     ASSERT_TRUE(under);
     EXPECT_EQ(under->pixel, (PixelPosition{1, 0}));
-    EXPECT_FALSE(pixelUnder(places, shown.size, 4.5, 0.5));
+    EXPECT_FALSE(pixelUnder(panel_rects, shown.size, 4.5, 0.5));
     // With the larger of the two factors, part of the image would be outside.
-    EXPECT_DOUBLE_EQ(placesOf({0, 0, 37, 10}, shown.size, view, false)[0].placement.scale, 2);
+    EXPECT_DOUBLE_EQ(panelRectsOf({0, 0, 37, 10}, shown.size, view, false)[0].placement.scale, 2);
 }
 
 TEST(ViewerCanvas, OverADifferenceTheRightPanelIsShownWhileThereIsAnother) {
     const CanvasRect canvas{0, 0, 40, 20};
     CanvasView view;
-    ASSERT_EQ(placesOf(canvas, {10, 5}, view, true).size(), 1u);
-    EXPECT_EQ(placesOf(canvas, {10, 5}, view, true)[0].panel, 2u);
+    ASSERT_EQ(panelRectsOf(canvas, {10, 5}, view, true).size(), 1u);
+    EXPECT_EQ(panelRectsOf(canvas, {10, 5}, view, true)[0].panel, 2u);
     view.other = true;
-    ASSERT_EQ(placesOf(canvas, {10, 5}, view, true).size(), 1u);
-    EXPECT_EQ(placesOf(canvas, {10, 5}, view, true)[0].panel, 1u);
+    ASSERT_EQ(panelRectsOf(canvas, {10, 5}, view, true).size(), 1u);
+    EXPECT_EQ(panelRectsOf(canvas, {10, 5}, view, true)[0].panel, 1u);
 }
 
 TEST(ViewerBar, ANarrowOneHasMoreRows) {
@@ -134,7 +134,7 @@ TEST(ViewerCanvas, ASmallerImageFillsTheSamePlace) {
     CanvasView view;
     view.layout = Layout::single;
     const auto pixels =
-        composed(shown, canvas, placesOf(canvas, shown.order.subject.settings.size, view, false), false);
+        composed(shown, canvas, panelRectsOf(canvas, shown.order.subject.settings.size, view, false), false);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x) {
             EXPECT_EQ(inCanvas(pixels, 8, x, y), inImage(shown.panels[1].image, x / 2, y / 2));
@@ -148,7 +148,7 @@ TEST(ViewerCanvas, LargePixelsHaveALineBetweenThem) {
     view.layout = Layout::single;
     view.zoom = 10;
     view.centre_x = view.centre_y = 2;
-    const auto pixels = composed(shown, canvas, placesOf(canvas, shown.size, view, false), false);
+    const auto pixels = composed(shown, canvas, panelRectsOf(canvas, shown.size, view, false), false);
     EXPECT_EQ(inCanvas(pixels, 40, 5, 5), inImage(shown.panels[1].image, 0, 0));
     EXPECT_EQ(inCanvas(pixels, 40, 10, 5), (Rgb8Pixel{70, 70, 70}));
     EXPECT_EQ(inCanvas(pixels, 40, 11, 5), inImage(shown.panels[1].image, 1, 0));
@@ -162,8 +162,8 @@ TEST(ViewerCanvas, NoSizeIsTooSmall) {
                 const CanvasRect canvas{0, 0, width, height};
                 CanvasView view;
                 view.layout = layout;
-                const auto places = placesOf(canvas, shown.size, view, difference);
-                EXPECT_EQ(composed(shown, canvas, places, false).size(),
+                const auto panel_rects = panelRectsOf(canvas, shown.size, view, difference);
+                EXPECT_EQ(composed(shown, canvas, panel_rects, false).size(),
                           4u * static_cast<unsigned>(width * height));
             }
 }

@@ -19,7 +19,7 @@ using namespace diptych;
 
 namespace {
 
-using Place = DefaultView::Place;
+using Place = DefaultView::Viewpoint;
 
 const glm::dvec3 standardSide = glm::normalize(glm::dvec3(1, 0.6, 1));
 
