@@ -404,9 +404,9 @@ void writeChoice(const Choices& choices, const std::filesystem::path& path, bool
     put(chosenSettings(choices), "settings.json");
     if (choices.all) add(blocksOf(*choices.all), std::span<const experiment::Row>());
     for (const ChoiceReport& report : choices.scenes) {
-        const std::string number = choices.all ? fmt::format("-{}", &report - &first + 1) : "";
-        folder.put(fmt::format("front{}.svg", number), plotOf(report, PlotTarget::file));
-        if (choices.all) put(chosenSettings(report.choice), fmt::format("settings{}.json", number));
+        const std::string suffix = choices.all ? fmt::format("-{}", &report - &first + 1) : "";
+        folder.put(fmt::format("front{}.svg", suffix), plotOf(report, PlotTarget::file));
+        if (choices.all) put(chosenSettings(report.choice), fmt::format("settings{}.json", suffix));
         add(blocksOf(report), report.choice.candidates);
     }
     if (choices.all)

@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // "0007" for the eighth image. Equal digit counts keep names in the order of the images.
-std::string numberOf(int frame, int frames) {
+std::string indexSuffix(int frame, int frames) {
     const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames - 1).size());
     return fmt::format("{:0{}}", frame, digits);
 }
 
 // "out.exr" becomes "out.0007.exr".
-fs::path numberedFile(fs::path file, const std::string& number) {
-    return file.replace_extension(number + file.extension().string());
+fs::path fileOfFrame(fs::path file, const std::string& suffix) {
+    return file.replace_extension(suffix + file.extension().string());
 }
 
 // --frames takes one scene and one camera.
@@ -64,23 +64,23 @@ public:
 
     const Output& output() const { return output_; }
 
-    void write(const Frame& frame, int number) {
-        if (number == 0) chooseExposure(frame);
+    void write(const Frame& frame, int index) {
+        if (index == 0) chooseExposure(frame);
         result_["frames"].push_back(jsonOf(frame));
         Json& entry = result_["frames"].back();
         fs::path target;
         if (output_.kind == OutputKind::folder) {
-            target = writeInFolder(frame, number, entry);
+            target = writeInFolder(frame, index, entry);
         } else {
-            const std::vector<fs::path> files = filesOf(number);
-            const fs::path file = numberedFile(output_.path, numberOf(number, options_.frames));
+            const std::vector<fs::path> files = filesOf(index);
+            const fs::path file = fileOfFrame(output_.path, indexSuffix(index, options_.frames));
             writeFrame(frame, made_, {output_.kind, file}, shown_, image_);
             entry["file"] = file.string();
             if (output_.kind == OutputKind::png)
                 for (const fs::path& of : files) entry["files"].push_back(of.string());
             target = files.size() == 1 ? file : file.parent_path() / imageNames(files);
         }
-        if (!options_.json && !options_.quiet) print(frame, target, number);
+        if (!options_.json && !options_.quiet) print(frame, target, index);
     }
 
     // Call after the last image: replaces the folder atomically.
@@ -97,8 +97,8 @@ public:
 
 private:
     // Files of one image. Only for outputs that are not folders.
-    std::vector<fs::path> filesOf(int number) const {
-        const fs::path file = numberedFile(output_.path, numberOf(number, options_.frames));
+    std::vector<fs::path> filesOf(int index) const {
+        const fs::path file = fileOfFrame(output_.path, indexSuffix(index, options_.frames));
         return output_.kind == OutputKind::png ? imageFiles(file, shown_) : std::vector{file};
     }
 
@@ -113,8 +113,8 @@ private:
     }
 
     // Writes FRAME.0007.exr and CHANNEL.0007.png.
-    fs::path writeInFolder(const Frame& frame, int number, Json& entry) {
-        const std::string ending = numberOf(number, options_.frames);
+    fs::path writeInFolder(const Frame& frame, int index, Json& entry) {
+        const std::string ending = indexSuffix(index, options_.frames);
         const std::string exr = fmt::format("{}.{}.exr", frame.name, ending);
         writeFrame(frame, made_, {OutputKind::exr, *folder_ / exr}, shown_, image_);
         files_.push_back(exr);
@@ -126,12 +126,12 @@ private:
         return output_.path / exr;
     }
 
-    void print(const Frame& frame, const fs::path& target, int number) {
+    void print(const Frame& frame, const fs::path& target, int index) {
         const double ms = frame.time.runs > 0 ? frame.time.median : frame.made_in_ms;
         printOut("{}: {} at {:.6g} s, {}x{}, {}{:.2f} ms\n", target.string(), frame.scene,
                  frame.settings.time, frame.settings.size.width, frame.settings.size.height,
                  frame.time.runs > 0 ? "" : "rendered in ", ms);
-        if (number == 0 && output_.kind != OutputKind::exr) printOut("  picture: {}\n", exposure_line_);
+        if (index == 0 && output_.kind != OutputKind::exr) printOut("  picture: {}\n", exposure_line_);
         for (const std::string& line : frame.notes)
             if (said_.insert(withoutNumbers(line)).second) printOut("  note: {}\n", line);
         flushText();

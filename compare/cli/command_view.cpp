@@ -62,7 +62,7 @@ bool fails(const JsonValue& of) {
 }
 
 bool isOf(const JsonValue& channel, Channel shown) {
-    return channel.at("number").json() == channelNumber(shown);
+    return channel.at("number").json() == channelIndex(shown);
 }
 
 // Whether the comparison fails; with --debug, whether that channel fails.

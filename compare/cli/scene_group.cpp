@@ -28,7 +28,7 @@ Channel channelNamed(const std::string& word, const std::string& option) {
     std::vector<std::string> names;
     for (const DebugMode& mode : debugModes()) {
         names.emplace_back(mode.name);
-        all += fmt::format("{}{} {}", all.empty() ? "" : ", ", channelNumber(mode.channel), mode.name);
+        all += fmt::format("{}{} {}", all.empty() ? "" : ", ", channelIndex(mode.channel), mode.name);
     }
     refuse("{} {}: no such channel{}; there are {}", option, word, didYouMean(word, names), all);
 }
@@ -277,12 +277,12 @@ ImageChoice imageChoice(const ImageGroup& options) {
 int listChannels(bool json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const DebugMode& mode : debugModes()) {
-        list.push_back({{"number", channelNumber(mode.channel)},
+        list.push_back({{"number", channelIndex(mode.channel)},
                         {"name", mode.name},
                         {"metric", nameOf(mode.error_kind)},
                         {"shows", mode.shows}});
         if (!json)
-            printOut("{:>3}  {:<20} {:<9} {}\n", channelNumber(mode.channel), mode.name,
+            printOut("{:>3}  {:<20} {:<9} {}\n", channelIndex(mode.channel), mode.name,
                      nameOf(mode.error_kind), mode.shows);
     }
     if (json) printOut("{}\n", jsonText(list));

@@ -43,9 +43,9 @@ Json numbersJson(const glm::dvec3& value) {
 Json stepsJson(const PixelBreakdown& breakdown) {
     Json steps = Json::array();
     for (const PixelStep& step : breakdown.steps) {
-        Json one{{"number", channelNumber(step.mode->channel)}, {"name", step.mode->name},
-                 {"metric", nameOf(step.mode->error_kind)},     {"baseline", numbersJson(step.values[0])},
-                 {"test", numbersJson(step.values[1])},         {"reference", numbersJson(step.values[2])}};
+        Json one{{"number", channelIndex(step.mode->channel)}, {"name", step.mode->name},
+                 {"metric", nameOf(step.mode->error_kind)},    {"baseline", numbersJson(step.values[0])},
+                 {"test", numbersJson(step.values[1])},        {"reference", numbersJson(step.values[2])}};
         if (step.isCompared()) {
             one["difference"] = finiteOrNull(step.difference);
             one["differs"] = step.differs;

@@ -24,9 +24,9 @@ std::string attribute(const char* name, std::string_view value) {
 
 // An id or an address; keeps what stands for a comparison's index.
 std::string addressed(std::string_view text) {
-    const std::size_t later = text.find(page::numberLater);
+    const std::size_t later = text.find(page::indexPlaceholder);
     return later == text.npos ? markup(text)
-                              : fmt::format("{}{}{}", markup(text.substr(0, later)), page::numberLater,
+                              : fmt::format("{}{}{}", markup(text.substr(0, later)), page::indexPlaceholder,
                                             addressed(text.substr(later + 1)));
 }
 

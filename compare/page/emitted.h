@@ -8,9 +8,9 @@ namespace diptych::page {
 
 // Parts of a report are written before their position in it is known (compare/report/parts.h). These
 // characters stand for what depends on it. No text has them: markup() replaces them by U+FFFD.
-inline constexpr std::string_view numberLater = "\x01";  // the comparison's index
-inline constexpr std::string_view titleLater = "\x02";   // its title
-inline constexpr std::string_view folderLater = "\x03";  // the report's folder and a slash, in junit.xml
+inline constexpr std::string_view indexPlaceholder = "\x01";  // the comparison's index
+inline constexpr std::string_view titleLater = "\x02";        // its title
+inline constexpr std::string_view folderLater = "\x03";       // the report's folder and a slash, in junit.xml
 
 // Throws std::runtime_error, one line without a file's name, unless the text is well-formed and has only
 // elements and attributes that the pages' writers emit. So it cannot leave its place, run a script, load

@@ -65,7 +65,7 @@ public:
                 {body},
                 id_,
                 {Span(mode.name, Span::title),
-                 Span(fmt::format("{} \u00b7 {} \u00b7 {}", channelNumber(mode.channel),
+                 Span(fmt::format("{} \u00b7 {} \u00b7 {}", channelIndex(mode.channel),
                                   nameOf(mode.error_kind), mode.shows),
                       Span::words, "soft"),
                  Span(verdict, Span::verdict, verdict)},

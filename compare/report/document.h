@@ -23,7 +23,7 @@ std::string reportHtml(const Report& report, const ReportLayout& layout, const R
 // part, the script names its file instead of the comparison.
 std::string sectionScript(const Report& report, const ReportLayout& layout, std::size_t index);
 // The comparison's title in the page, which is empty if there is only one comparison. In a part of a
-// report, numberLater and titleLater replace number and title.
+// report, indexPlaceholder and titleLater replace number and title.
 std::string sectionTitle(const Report& report, const ReportLayout& layout, std::size_t index);
 
 // Describe one comparison, and which path is closer to the reference. `layout`: the page's; nullptr: for a

@@ -49,7 +49,7 @@ Json jsonOf(const BoundUse& use) {
 }
 
 Json jsonOf(const Report& report, const Comparison& comparison, const ChannelDiff& channel) {
-    Json json{{"number", channelNumber(channel.mode->channel)},
+    Json json{{"number", channelIndex(channel.mode->channel)},
               {"name", channel.mode->name},
               {"metric", nameOf(channel.mode->error_kind)}};
     const ChannelStats& s = channel.stats;

@@ -136,7 +136,7 @@ ReportLayout layoutOf(const Report& report, const ReportOptions& options) {
     layout.exr.resize(report.frames.size());
     const ReportFolders folders = reportFolders(report, options.scene_folder);
     for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
-        layout.ids.push_back(layout.part ? std::string(numberLater) : std::to_string(i));
+        layout.ids.push_back(layout.part ? std::string(indexPlaceholder) : std::to_string(i));
         const Comparison& comparison = report.comparisons[i];
         const bool kept = isKept(comparison, options.keep);
         for (const std::size_t frame : {comparison.baseline, comparison.test})

@@ -40,7 +40,7 @@ inline constexpr std::size_t comparisonsInPage = 4;
 
 // Stand for what depends on the position in the report (parts.h).
 using page::folderLater;
-using page::numberLater;
+using page::indexPlaceholder;
 using page::titleLater;
 
 struct ReportLayout {

@@ -80,7 +80,7 @@ Json jsonOf(const IndexRow& row) {
     for (const IndexChannel& c : row.channels)
         channels.push_back(
             {c.name, c.verdict, c.used, c.max, c.mean, c.rmse, c.p99, c.p999, c.flip, c.noise});
-    return {{"worst", row.worst ? Json(channelNumber(row.worst->channel)) : Json(nullptr)},
+    return {{"worst", row.worst ? Json(channelIndex(row.worst->channel)) : Json(nullptr)},
             {"used", row.used},
             {"ms", {row.left_ms, row.right_ms}},
             {"timed", {row.left_timed, row.right_timed}},
@@ -90,9 +90,9 @@ Json jsonOf(const IndexRow& row) {
             {"channels", channels}};
 }
 
-const DebugMode& debugModeFrom(const JsonAt<nlohmann::json>& number) {
-    const DebugMode* mode = findDebugMode(std::to_string(number.whole(0, 1 << 20)));
-    if (!mode) number.fail("is not a channel index");
+const DebugMode& debugModeFrom(const JsonAt<nlohmann::json>& index) {
+    const DebugMode* mode = findDebugMode(std::to_string(index.whole(0, 1 << 20)));
+    if (!mode) index.fail("is not a channel index");
     return *mode;
 }
 

@@ -40,7 +40,7 @@ struct IndexRow {
 nlohmann::ordered_json jsonOf(const IndexRow& row);
 // Read from a file. Throw std::runtime_error naming the position.
 IndexRow indexRowFrom(const JsonAt<nlohmann::json>& json);
-const DebugMode& debugModeFrom(const JsonAt<nlohmann::json>& number);
+const DebugMode& debugModeFrom(const JsonAt<nlohmann::json>& index);
 
 // A test suite of junit.xml.
 struct JunitSuite {

@@ -75,7 +75,7 @@ std::function<std::string(std::size_t)> sectionsOf(const WholeReport& whole, con
         roots.insert(roots.end(), located.part.sections.size(), located.root);
     return [&all, &layout, roots = std::move(roots)](std::size_t index) {
         std::string text = sectionIn(roots[index], all.sections[index]);
-        replaceAll(text, numberLater, layout.ids[index]);
+        replaceAll(text, indexPlaceholder, layout.ids[index]);
         replaceAll(text, titleLater, page::markup(sectionTitle(all.report, layout, index)));
         return text;
     };

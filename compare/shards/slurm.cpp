@@ -101,16 +101,16 @@ Ran run(std::vector<std::string> words) {
 }
 
 // "123" or "123;cluster".
-std::string jobNumber(const std::vector<std::string>& words) {
+std::string jobId(const std::vector<std::string>& words) {
     const Ran ran = run(words);
     // The number is the last line; sbatch may print messages before it.
     const std::size_t line = ran.out.rfind('\n');
-    std::string number = line == ran.out.npos ? ran.out : ran.out.substr(line + 1);
-    number = number.substr(0, number.find(';'));
-    if (ran.code != 0 || number.empty() || number.find_first_not_of("0123456789") != number.npos)
+    std::string id = line == ran.out.npos ? ran.out : ran.out.substr(line + 1);
+    id = id.substr(0, id.find(';'));
+    if (ran.code != 0 || id.empty() || id.find_first_not_of("0123456789") != id.npos)
         throw std::runtime_error(
             fmt::format("sbatch: {}", ran.out.empty() ? "failed without a message" : ran.out));
-    return number;
+    return id;
 }
 
 }  // namespace
@@ -159,10 +159,10 @@ Submitted submit(const SlurmJob& job) {
     std::vector<std::string> words{"sbatch", "--parsable"};
     words.insert(words.end(), job.options.begin(), job.options.end());
     words.push_back(array.string());
-    submitted.array = jobNumber(words);
+    submitted.array = jobId(words);
     // afterany: merge even if tasks failed; the report names what is missing.
     submitted.merge =
-        jobNumber({"sbatch", "--parsable", "--dependency=afterany:" + submitted.array, merge.string()});
+        jobId({"sbatch", "--parsable", "--dependency=afterany:" + submitted.array, merge.string()});
     return submitted;
 }
 

@@ -43,7 +43,7 @@ void Latencies::seen(const DrawnView& shown, std::uint64_t order) {
     sayImage(said_first_, "first picture");
     if (isWhole(shown)) sayImage(said_whole_, "first whole picture");
     std::erase_if(waiting_, [&](const Waiting& waiting) {
-        if (waiting.order == 0 ? order != waiting.before : shown.order.number < waiting.order) return false;
+        if (waiting.order == 0 ? order != waiting.before : shown.order.id < waiting.order) return false;
         say_(fmt::format("key {}: seen after {:.0f} ms, {}x{}", waiting.key,
                          1000 * secondsFrom(waiting.pressed, now), shown.size.width, shown.size.height));
         return true;

@@ -147,8 +147,8 @@ private:
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
                           next.status.error != contents_.status.error || next.idle != contents_.idle;
         if (next.status.error != contents_.status.error && !next.status.error.empty()) say(next.status.error);
-        if (next.idle && order_.number != said_still_) {
-            said_still_ = order_.number;
+        if (next.idle && order_.id != said_still_) {
+            said_still_ = order_.id;
             say("still: all is drawn");
         }
         contents_ = std::move(next);
@@ -186,7 +186,7 @@ private:
             const Size size{std::max(1, halves ? (canvas.width - 2) / 2 : canvas.width),
                             std::max(1, canvas.height)};
             if (size != state_.subject.settings.size) {
-                if (order_.number != 0) moving_until_ = std::max(moving_until_, now_ + resizedAfter);
+                if (order_.id != 0) moving_until_ = std::max(moving_until_, now_ + resizedAfter);
                 change([&](Settings& s) { s.size = size; });
             }
         }
@@ -199,15 +199,15 @@ private:
             changed_ = now_;
         }
         const bool moving = now_ < moving_until_ || state_.playing || isHeldMoving();
-        if (order_.number != 0 && order_.subject == state_.subject && order_.look == state_.look &&
+        if (order_.id != 0 && order_.subject == state_.subject && order_.look == state_.look &&
             order_.moving == moving && order_.pixel == state_.pixel)
             return;
         order_.subject = state_.subject;
         order_.look = state_.look;
         order_.moving = moving;
         order_.pixel = state_.pixel;
-        order_.number = drawing_.ask(order_);
-        latencies_.asked(order_.number);
+        order_.id = drawing_.ask(order_);
+        latencies_.asked(order_.id);
     }
 
     std::vector<std::filesystem::path> otherFiles() const {
@@ -311,7 +311,7 @@ private:
     void press(const KeyDown& key, bool typing) {
         const std::optional<KeyPress> found = actionOf(key.key, key.control);
         if (!found || (typing && found->action != Action::quit && found->action != Action::leave)) return;
-        latencies_.pressed(nameOfKey(found->action), order_.number);
+        latencies_.pressed(nameOfKey(found->action), order_.id);
         act(*found, key.shift);
     }
 
@@ -459,7 +459,7 @@ private:
         window_.setTitle(fmt::format("Diptych - {} - {}",
                                      contents_.properties ? contents_.properties->name : state_.subject.scene,
                                      debugMode(state_.look.channel()).name));
-        if (contents_.shown) latencies_.seen(*contents_.shown, order_.number);
+        if (contents_.shown) latencies_.seen(*contents_.shown, order_.id);
     }
 
     const ViewerOptions& options_;

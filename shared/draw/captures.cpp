@@ -31,7 +31,7 @@ static_assert(capture_indices.back().index.image + 1 == gpu::CAPTURE_IMAGES);
 CaptureIndex captureIndex(Channel mode) {
     const auto found = std::ranges::find(capture_indices, mode, &Placed::mode);
     if (found == capture_indices.end())
-        throw std::out_of_range("no capture of debug mode " + std::to_string(channelNumber(mode)));
+        throw std::out_of_range("no capture of debug mode " + std::to_string(channelIndex(mode)));
     return found->index;
 }
 

@@ -15,19 +15,19 @@ namespace diptych {
 std::span<const DebugMode> debugModes() {
     using namespace gpu;  // the bits of G-buffers
     static constexpr DebugMode modes[] = {
-#define DIPTYCH_DEBUG_ROW(number, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
-                          standard, compact, part, texels, related)                                      \
-    {Channel::name,                                                                                      \
-     #name,                                                                                              \
-     width,                                                                                              \
-     ErrorKind::errorKind,                                                                               \
-     ChannelKind::kind,                                                                                  \
-     Domain::domain,                                                                                     \
-     MadeBy::maker,                                                                                      \
-     shows,                                                                                              \
-     step,                                                                                               \
-     {FieldCode::code, standard, compact},                                                               \
-     TexelUse::texels,                                                                                   \
+#define DIPTYCH_DEBUG_ROW(index, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
+                          standard, compact, part, texels, related)                                     \
+    {Channel::name,                                                                                     \
+     #name,                                                                                             \
+     width,                                                                                             \
+     ErrorKind::errorKind,                                                                              \
+     ChannelKind::kind,                                                                                 \
+     Domain::domain,                                                                                    \
+     MadeBy::maker,                                                                                     \
+     shows,                                                                                             \
+     step,                                                                                              \
+     {FieldCode::code, standard, compact},                                                              \
+     TexelUse::texels,                                                                                  \
      related},
         DEBUG_MODES(DIPTYCH_DEBUG_ROW)
 #undef DIPTYCH_DEBUG_ROW
@@ -35,27 +35,27 @@ std::span<const DebugMode> debugModes() {
     return modes;
 }
 
-const DebugMode* findDebugMode(std::string_view nameOrNumber) {
-    int number = -1;
-    const char* end = nameOrNumber.data() + nameOrNumber.size();
-    const auto [rest, error] = std::from_chars(nameOrNumber.data(), end, number);
-    const bool isNumber = error == std::errc() && rest == end;
+const DebugMode* findDebugMode(std::string_view nameOrIndex) {
+    int index = -1;
+    const char* end = nameOrIndex.data() + nameOrIndex.size();
+    const auto [rest, error] = std::from_chars(nameOrIndex.data(), end, index);
+    const bool isIndex = error == std::errc() && rest == end;
     const auto found = std::ranges::find_if(debugModes(), [&](const DebugMode& mode) {
-        return isNumber ? channelNumber(mode.channel) == number : mode.name == nameOrNumber;
+        return isIndex ? channelIndex(mode.channel) == index : mode.name == nameOrIndex;
     });
     return found == debugModes().end() ? nullptr : &*found;
 }
 
-std::optional<Channel> channelOfNumber(int number) {
-    const auto found = std::ranges::find(debugModes(), number,
-                                         [](const DebugMode& mode) { return channelNumber(mode.channel); });
+std::optional<Channel> channelOfIndex(int index) {
+    const auto found = std::ranges::find(debugModes(), index,
+                                         [](const DebugMode& mode) { return channelIndex(mode.channel); });
     return found == debugModes().end() ? std::nullopt : std::optional(found->channel);
 }
 
 const DebugMode& debugMode(Channel channel) {
     const auto found = std::ranges::find(debugModes(), channel, &DebugMode::channel);
     if (found == debugModes().end())
-        throw std::out_of_range(fmt::format("no channel {}", channelNumber(channel)));
+        throw std::out_of_range(fmt::format("no channel {}", channelIndex(channel)));
     return *found;
 }
 

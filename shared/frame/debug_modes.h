@@ -66,9 +66,9 @@ struct DebugMode {
     ShownAs shown = ShownAs::by_metric;
 };
 
-std::span<const DebugMode> debugModes();                        // in ascending order of number
-const DebugMode* findDebugMode(std::string_view nameOrNumber);  // nullptr: unknown
-const DebugMode& debugMode(Channel channel);                    // throws std::out_of_range
+std::span<const DebugMode> debugModes();                       // in ascending order of index
+const DebugMode* findDebugMode(std::string_view nameOrIndex);  // nullptr: unknown
+const DebugMode& debugMode(Channel channel);                   // throws std::out_of_range
 std::string_view nameOf(ErrorKind errorKind);
 
 // The stage that makes a channel, and the part of a material without which it is not stored.
@@ -102,7 +102,7 @@ constexpr bool isShaded(Channel mode) {
     return isLit(mode) || isOfHaze(mode) || sourceOf(mode).stage == ChannelStage::visibility;
 }
 
-// Every channel, and those for which isLit(), in ascending order of number.
+// Every channel, and those for which isLit(), in ascending order of index.
 #define DIPTYCH_DEBUG_LISTED(number, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
                              standard, compact, part, texels, related)                                      \
     Channel::name,

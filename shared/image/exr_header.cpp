@@ -242,7 +242,7 @@ void Reader::take(const Attributes& attributes, ExrPart part, const Tiles& tiles
             "its display window is {} x {} at {}, {}, but {} x {} at {}, {} in the parts before it; read one "
             "part, for example FILE.exr?part={}",
             display.width(), display.height(), display.min_x, display.min_y, header.display.width(),
-            header.display.height(), header.display.min_x, header.display.min_y, part.number));
+            header.display.height(), header.display.min_x, header.display.min_y, part.index));
     FileNotes notes;
     if (tiles.levels > 0)
         notes.in_part.push_back(

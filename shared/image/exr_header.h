@@ -37,7 +37,7 @@ struct ExrChannel {
 };
 
 struct ExrPart {
-    int number = 0;    // index of the part in the file
+    int index = 0;     // index of the part in the file
     std::string name;  // "" if only one part is read
     ExrWindow data;
     std::vector<ExrChannel> channels;  // in the file's order

@@ -204,7 +204,7 @@ void crop(Layer& layer, const ExrWindow& data, const ExrWindow& display) {
 }
 
 std::vector<Layer> readPart(Imf::MultiPartInputFile& file, const ExrPart& part, const ExrWindow& display) {
-    Imf::InputPart in(file, part.number);
+    Imf::InputPart in(file, part.index);
     const Imath::Box2i window = in.header().dataWindow();
     if (ExrWindow{window.min.x, window.min.y, window.max.x, window.max.y} != part.data)
         throw std::runtime_error("its data window is ambiguous");

@@ -217,15 +217,15 @@ public:
         const Claim claim =
             claimMemory(2 * size, held, fmt::format("a tile or strip of {} x {} pixels", width_, height_));
         std::vector<unsigned char> piece(size);
-        std::uint32_t number = 0;
+        std::uint32_t index = 0;
         for (int plane = 0; plane < (layout_.planes ? layout_.components : 1); ++plane)
             for (std::uint32_t y = 0; y < layout_.height; y += height_)
-                for (std::uint32_t x = 0; x < layout_.width; x += width_, ++number) {
+                for (std::uint32_t x = 0; x < layout_.width; x += width_, ++index) {
                     const auto wanted = static_cast<tmsize_t>(
                         layout_.tiled ? size : size / height_ * std::min(height_, layout_.height - y));
                     const tmsize_t got = layout_.tiled
-                                             ? TIFFReadEncodedTile(tiff_, number, piece.data(), wanted)
-                                             : TIFFReadEncodedStrip(tiff_, number, piece.data(), wanted);
+                                             ? TIFFReadEncodedTile(tiff_, index, piece.data(), wanted)
+                                             : TIFFReadEncodedStrip(tiff_, index, piece.data(), wanted);
                     if (got != wanted) return false;
                     put(piece.data(), x, y, plane);
                 }

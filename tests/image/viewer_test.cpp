@@ -46,10 +46,10 @@ bool soon(const Condition& condition) {
 
 // Sends a request and waits for its complete result.
 bool isDrawn(DrawingThread& drawing, const DrawRequest& order) {
-    const std::uint64_t number = drawing.ask(order);
+    const std::uint64_t id = drawing.ask(order);
     return soon([&] {
         const auto shown = drawing.shown();
-        return drawing.idle() && shown && shown->order.number == number;
+        return drawing.idle() && shown && shown->order.id == id;
     });
 }
 

@@ -30,7 +30,7 @@ constexpr std::size_t rowWidth = 3 * 77 + 1, rowCount = 4096;  // stored.comp
 struct Stored {
     const DebugMode* mode;
     std::string standard, compact;
-    std::size_t column() const { return 3 * static_cast<std::size_t>(channelNumber(mode->channel)); }
+    std::size_t column() const { return 3 * static_cast<std::size_t>(channelIndex(mode->channel)); }
 };
 std::vector<Stored> storedChannels() {
     std::vector<Stored> all;
@@ -76,7 +76,7 @@ std::vector<float> inputs() {
                         at[c] = fraction(random);
                 }
             if (stored.mode->stored.code == FieldCode::line) {  // perpendicular to the normal
-                const float* n = values + 3 * static_cast<std::size_t>(channelNumber(Channel::normals));
+                const float* n = values + 3 * static_cast<std::size_t>(channelIndex(Channel::normals));
                 const float along = at[0] * n[0] + at[1] * n[1] + at[2] * n[2];
                 for (int c = 0; c < 3; ++c) at[c] -= along * n[c];
             }

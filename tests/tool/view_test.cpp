@@ -78,7 +78,7 @@ TEST_F(View, EveryChannelIsWhatRenderWrites) {
     // C cycles through those beyond 9.
     std::vector<std::string> beyond;
     for (const DebugMode& mode : debugModes())
-        if (channelNumber(mode.channel) > 9) beyond.emplace_back(mode.name);
+        if (channelIndex(mode.channel) > 9) beyond.emplace_back(mode.name);
     keyAndSettle("c");
     EXPECT_EQ(differing(rendered(scene + beyond[0]), 1, single()), 0);
     keyAndSettle("c");

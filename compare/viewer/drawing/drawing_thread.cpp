@@ -28,13 +28,13 @@ DrawingThread::~DrawingThread() = default;
 
 std::uint64_t DrawingThread::ask(DrawRequest order) {
     Mailbox& mailbox = state_->mailbox;
-    std::uint64_t number = 0;
+    std::uint64_t id = 0;
     mailbox.request([&] {
-        number = order.number = mailbox.wanted ? mailbox.wanted->number + 1 : 1;
+        id = order.id = mailbox.wanted ? mailbox.wanted->id + 1 : 1;
         mailbox.wanted = std::move(order);
         mailbox.waiting = false;
     });
-    return number;
+    return id;
 }
 
 void DrawingThread::save(const std::filesystem::path& folder) {

@@ -22,7 +22,7 @@ public:
     DrawingThread& operator=(const DrawingThread&) = delete;
 
     // Replaces the request. Work for an earlier request that is no longer needed stops at its next step.
-    // Returns the number given to the request.
+    // Returns the id given to the request.
     std::uint64_t ask(DrawRequest order);
 
     // Writes the visible channel of both paths as PNG and all channels as EXR, NAME.deferred.png and so

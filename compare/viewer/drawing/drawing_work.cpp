@@ -76,11 +76,11 @@ private:
         std::unique_lock lock(box_.mutex);
         for (;;) {
             if (box_.stopping) return false;
-            if (box_.wanted && box_.wanted->number != order_.number) {
+            if (box_.wanted && box_.wanted->id != order_.id) {
                 order_ = *box_.wanted;
                 both_ = ofBothPaths(order_.subject);
             }
-            if (box_.save_to || (order_.number != 0 && hasWork())) {
+            if (box_.save_to || (order_.id != 0 && hasWork())) {
                 box_.waiting = false;
                 return true;
             }
@@ -98,12 +98,12 @@ private:
     }
 
     bool drawsReference() const {
-        return order_.look.against == Against::reference && !order_.moving && shown_order_ == order_.number &&
-               failed_order_ != order_.number && left_.referenceDone() < 1;
+        return order_.look.against == Against::reference && !order_.moving && shown_order_ == order_.id &&
+               failed_order_ != order_.id && left_.referenceDone() < 1;
     }
     bool hasWork() const {
-        if (failed_order_ == order_.number) return false;
-        if (shown_order_ != order_.number) return true;
+        if (failed_order_ == order_.id) return false;
+        if (shown_order_ != order_.id) return true;
         if (order_.moving) return false;
         return left_.isUpdateDue(order_) || wantsTimes() || wantsVerdict() || wantsBreakdown();
     }
@@ -123,7 +123,7 @@ private:
         left_.stopUnneeded(order_);
         readScene();
         needRenderer();
-        if (shown_order_ != order_.number) {
+        if (shown_order_ != order_.id) {
             if (!order_.moving) drawSmallerFirst();
             return draw();
         }
@@ -137,7 +137,7 @@ private:
 
     void heed() const {
         const std::lock_guard lock(box_.mutex);
-        if (box_.stopping || (box_.wanted && box_.wanted->number != order_.number)) throw Superseded();
+        if (box_.stopping || (box_.wanted && box_.wanted->id != order_.id)) throw Superseded();
     }
     void at(double fraction, const std::string& step) {
         heed();
@@ -152,7 +152,7 @@ private:
     Stage stage(const char* what) { return {progress_, what}; }
 
     void fail(const std::string& why) {
-        failed_order_ = order_.number;
+        failed_order_ = order_.id;
         box_.publish([&] {
             box_.status.error = why;
             box_.status.doing.clear();
@@ -308,7 +308,7 @@ private:
         if (!passing) next->depth = test.channels.at(Channel::depth);
         next->paths = paths_;
         next->made_in_ms = msSince(start);
-        if (!passing || order_.moving) shown_order_ = order_.number;
+        if (!passing || order_.moving) shown_order_ = order_.id;
         box_.publish([&] {
             box_.shown = std::move(next);
             box_.status.error = pair_.sceneError();  // until a scene is read

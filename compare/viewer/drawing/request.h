@@ -61,7 +61,7 @@ struct LookOptions {
 };
 
 struct DrawRequest {
-    std::uint64_t number = 0;  // increases
+    std::uint64_t id = 0;  // increases
     Subject subject;
     LookOptions look;
     bool moving = false;                 // smaller images, and nothing else

@@ -16,8 +16,8 @@ std::string writeScreenshot(PairRenderer& pair, const DrawRequest& order,
     render.requested = everyChannel();
     std::filesystem::create_directories(folder);
     std::filesystem::path stem;
-    for (int number = 1; stem.empty() || std::filesystem::exists(stem.string() + ".deferred.exr"); ++number)
-        stem = folder / fmt::format("diptych-view-{:04}", number);
+    for (int id = 1; stem.empty() || std::filesystem::exists(stem.string() + ".deferred.exr"); ++id)
+        stem = folder / fmt::format("diptych-view-{:04}", id);
     const ReportDevice made = reportDevice(*pair.device());
     const DebugMode& mode = debugMode(order.look.channel());
     for (const Path path : drawn_paths) {

@@ -23,7 +23,7 @@ void cycle(Value& value, std::initializer_list<Value> values) {
 void nextChannel(LookOptions& look, int step) {
     std::vector<Channel> beyond;
     for (const DebugMode& mode : debugModes())
-        if (channelNumber(mode.channel) > 9) beyond.push_back(mode.channel);
+        if (channelIndex(mode.channel) > 9) beyond.push_back(mode.channel);
     const auto count = static_cast<std::ptrdiff_t>(beyond.size());
     std::ptrdiff_t at = std::ranges::find(beyond, look.mode) - beyond.begin();
     at = at == count ? (step > 0 ? 0 : count - 1) : (at + step + count) % count;
@@ -76,7 +76,7 @@ std::optional<std::string> actOnState(const KeyPress& pressed, bool shift, const
                 s->path = s->path == drawn_paths[0] ? drawn_paths[1] : drawn_paths[0];
             break;
         case Action::channel:
-            state.look.mode = channelOfNumber(pressed.number).value();
+            state.look.mode = channelOfIndex(pressed.index).value();
             break;
         case Action::next_channel:
             nextChannel(state.look, shift ? -1 : 1);

@@ -48,11 +48,11 @@ std::string_view nameOf(Layout layout) {
 void channelCombo(InterfaceState& state, float width) {
     const DebugMode& now = debugMode(state.look.mode);
     ImGui::SetNextItemWidth(width);
-    if (!ImGui::BeginCombo("##channel", fmt::format("{} {}", channelNumber(now.channel), now.name).c_str(),
+    if (!ImGui::BeginCombo("##channel", fmt::format("{} {}", channelIndex(now.channel), now.name).c_str(),
                            ImGuiComboFlags_HeightLarge))
         return;
     for (const DebugMode& mode : debugModes()) {
-        if (ImGui::Selectable(fmt::format("{} {}", channelNumber(mode.channel), mode.name).c_str(),
+        if (ImGui::Selectable(fmt::format("{} {}", channelIndex(mode.channel), mode.name).c_str(),
                               mode.channel == state.look.mode))
             state.look.mode = mode.channel;
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(mode.shows).c_str());

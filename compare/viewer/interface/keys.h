@@ -57,7 +57,7 @@ std::span<const KeyBinding> keyBindings();
 
 struct KeyPress {
     Action action;
-    int number = 0;  // index of the key in its row
+    int index = 0;  // index of the key in its row
 };
 // The action of a pressed key; empty for other keys. `control`: Ctrl is down too.
 std::optional<KeyPress> actionOf(int key, bool control);

@@ -74,7 +74,7 @@ const std::vector<Convention>& conventions() {
           "const int a = static_cast<int>(row.mode->channel);",
           "const auto a = static_cast<gpu::uint>(mode);", "const Channel a{4}, b = Channel{number};",
           "const auto a = static_cast<Channel>(4);", "const int a = gpu::DEBUG_lit;"},
-         {{"compare/a.cpp", "const int a = channelNumber(mode.channel) + static_cast<int>(modes);"}}},
+         {{"compare/a.cpp", "const int a = channelIndex(mode.channel) + static_cast<int>(modes);"}}},
         // Instances list their devices and layers. Matching the functions' names also finds wrappers.
         {"one file asks Vulkan about a device",
          {"vkGetPhysicalDevice", "vkEnumerateDevice"},

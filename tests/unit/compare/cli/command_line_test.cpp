@@ -370,7 +370,7 @@ TEST(CommandLine, APixelIsTwoNumbersFromTheTopLeft) {
 TEST(CommandLine, AnUnknownChannelListsThoseThatThereAre) {
     const std::string what = whatIsThrown({"render", "--channels", "gloss"});
     for (const DebugMode& mode : debugModes())
-        EXPECT_NE(what.find(std::to_string(channelNumber(mode.channel)) + " " + std::string(mode.name)),
+        EXPECT_NE(what.find(std::to_string(channelIndex(mode.channel)) + " " + std::string(mode.name)),
                   std::string::npos)
             << what;
 }

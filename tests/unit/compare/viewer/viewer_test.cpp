@@ -39,7 +39,7 @@ TEST(ViewerKeys, ARowOfDigitsTellsWhichOne) {
             const auto press = actionOf(first + digit, false);
             ASSERT_TRUE(press) << digit;
             EXPECT_EQ(press->action, Action::channel);
-            EXPECT_EQ(press->number, digit);
+            EXPECT_EQ(press->index, digit);
         }
     EXPECT_FALSE(actionOf(GLFW_KEY_F12, false));
 }

@@ -16,9 +16,9 @@ TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
     std::set<std::string_view> names;
     int last = -1;
     for (const DebugMode& mode : debugModes()) {
-        EXPECT_GT(channelNumber(mode.channel), last) << mode.name;
-        last = channelNumber(mode.channel);
-        EXPECT_EQ(channelOfNumber(last), mode.channel);
+        EXPECT_GT(channelIndex(mode.channel), last) << mode.name;
+        last = channelIndex(mode.channel);
+        EXPECT_EQ(channelOfIndex(last), mode.channel);
         EXPECT_TRUE(names.insert(mode.name).second) << mode.name;
         EXPECT_FALSE(mode.shows.empty()) << mode.name;
         EXPECT_EQ(findDebugMode(mode.name), &mode);
@@ -32,14 +32,14 @@ TEST(DebugModes, ZeroToNineAreFixed) {
     const char* const names[] = {"lit",      "albedo",    "normals",  "metallic",    "roughness",
                                  "emission", "occlusion", "specular", "material_id", "texcoords"};
     for (int number = 0; number < 10; ++number)
-        EXPECT_EQ(debugMode(channelOfNumber(number).value()).name, names[number]);
+        EXPECT_EQ(debugMode(channelOfIndex(number).value()).name, names[number]);
 }
 
 TEST(DebugModes, WhatIsNotThereIsNotFound) {
     for (const char* word : {"", "Lit", "lit ", "-1", "9999", "1x", "+1"})
         EXPECT_EQ(findDebugMode(word), nullptr) << word;
     EXPECT_THROW(debugMode(foreignChannel(0)), std::out_of_range);
-    for (const int number : {-1, 9999}) EXPECT_EQ(channelOfNumber(number), std::nullopt);
+    for (const int number : {-1, 9999}) EXPECT_EQ(channelOfIndex(number), std::nullopt);
 }
 
 TEST(DebugModes, ExrChannelsAreNamedByKindAndUnique) {
