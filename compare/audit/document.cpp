@@ -31,11 +31,11 @@ std::string rangeOf(std::optional<double> from, std::optional<double> to) {
 
 // A row for each series; a page also has the predictions.
 output::Table rangesOf(std::span<const QuantityAudit> all) {
-    output::Table table{{{"quantity", Column::words, 0, Column::page}, {"settings"}}, {}, true};
+    output::Table table{{{"quantity", Column::text, 0, Column::page}, {"settings"}}, {}, true};
     table.indent = 2;
     for (const BreakCriterion& criterion : criteria) table.columns.push_back({std::string(criterion.title)});
     for (const char* title : {"predicted, 1e-3", "predicted, 1e-2"})
-        table.columns.push_back({title, Column::words, 0, Column::page});
+        table.columns.push_back({title, Column::text, 0, Column::page});
     for (const QuantityAudit& of : all)
         for (std::size_t s = 0; s < of.series.size(); ++s) {
             const std::string_view name = of.quantity->name;

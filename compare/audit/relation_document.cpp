@@ -27,7 +27,7 @@ using page::number;
 namespace {
 
 Span chip(std::string_view verdict) {
-    if (verdict == "does not apply") return {verdict, Span::words, "soft"};
+    if (verdict == "does not apply") return {verdict, Span::plain, "soft"};
     return {verdict, Span::verdict, verdict == "holds" ? "pass" : "fail"};
 }
 
@@ -180,7 +180,7 @@ std::vector<Block> blocksOf(const RelationResult& of, const ReportDevice& device
         {Paragraph{fmt::format("{:<19} {}: {}", relation.name, verdict, summary)}, Block::terminal},
         {Paragraph{fmt::format("{}; {}", relation.changes, relation.because)},
          broken ? Block::everywhere : Block::page},
-        {Paragraph{Span(summary, broken ? Span::strong : Span::words), broken ? "" : "soft small"},
+        {Paragraph{Span(summary, broken ? Span::strong : Span::plain), broken ? "" : "soft small"},
          Block::page}};
     for (const SeriesResult& series : of.series) {
         if (!broken || !series.lacks.empty()) continue;

@@ -52,9 +52,9 @@ output::Table modeTable(const Bench& bench) {
         return fmt::format("{}x{}", row.settings.size.width, row.settings.size.height);
     });
     if (bench.options.table == BenchTable::growth || bench.options.table == BenchTable::layers)
-        add({"amount", Column::words, 18}, [](const BenchRow& row) { return row.point(); });
-    add({"path", Column::words, 12}, [](const BenchRow& row) { return nameOf(row.settings.path); });
-    add({"assign", Column::words, bench.options.table == BenchTable::msaa ? 31u : 12u},
+        add({"amount", Column::text, 18}, [](const BenchRow& row) { return row.point(); });
+    add({"path", Column::text, 12}, [](const BenchRow& row) { return nameOf(row.settings.path); });
+    add({"assign", Column::text, bench.options.table == BenchTable::msaa ? 31u : 12u},
         [](const BenchRow& row) { return row.assignLabel(); });
     addMs("ms", Measure::ms);
     addMs("min", Measure::ms_min);

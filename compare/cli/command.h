@@ -27,20 +27,20 @@ struct Command {
     std::function<int()> run{};
 };
 
-// `words`: of --help. The functions take a Line&.
+// `command`: its text in --help. The functions take a Line&.
 template <class Line>
-Command makeCommand(Command words, auto describe, auto resolve, auto run) {
+Command makeCommand(Command command, auto describe, auto resolve, auto run) {
     const auto line = std::make_shared<Line>();
-    words.line = line;
-    if constexpr (requires { line->submitted; }) words.submitted = &line->submitted;
-    words.describe = [line, describe](CLI::App& app) { describe(app, *line); };
-    words.resolve = [line, resolve] { resolve(*line); };
-    words.run = [line, run] {
+    command.line = line;
+    if constexpr (requires { line->submitted; }) command.submitted = &line->submitted;
+    command.describe = [line, describe](CLI::App& app) { describe(app, *line); };
+    command.resolve = [line, resolve] { resolve(*line); };
+    command.run = [line, run] {
         if constexpr (std::is_base_of_v<ImageGroup, Line>)
             if (line->list_channels) return listChannels(line->json);
         return run(std::as_const(*line));
     };
-    return words;
+    return command;
 }
 
 // All commands, in the order of --help, each with new options.

@@ -14,10 +14,10 @@
 
 namespace diptych::output {
 
-// Words of one kind. A terminal and a CSV file show the words alone.
+// Text of one kind. A terminal and a CSV file show the text alone.
 struct Span {
     enum Kind {
-        words,    // style: CSS classes
+        plain,    // style: CSS classes
         name,     // may break after its underscores
         foreign,  // right-to-left letters do not affect their surroundings
         strong,
@@ -25,12 +25,12 @@ struct Span {
         link,     // style: address; breaks like a name
         verdict,  // style: pass or fail
         command,  // of a shell; with a button that copies it
-        swatch,   // a path's colour; style: its name. Has no words
+        swatch,   // a path's colour; style: its name. Has no text
         drawn,    // markup, which only a page shows
     };
-    template <std::convertible_to<std::string_view> Words>
-    Span(const Words& said, Kind its_kind = words, std::string_view its_style = {})
-        : text(std::string_view(said)), kind(its_kind), style(its_style) {}
+    template <std::convertible_to<std::string_view> String>
+    Span(const String& content, Kind its_kind = plain, std::string_view its_style = {})
+        : text(std::string_view(content)), kind(its_kind), style(its_style) {}
 
     std::string text;
     Kind kind;
@@ -48,8 +48,8 @@ struct Text {
 
 struct Cell {
     Cell() = default;
-    template <std::convertible_to<Text> Words>
-    Cell(const Words& said) : text(said) {}
+    template <std::convertible_to<Text> String>
+    Cell(const String& content) : text(content) {}
 
     Text text;
     std::optional<double> value{};  // a page sorts by it; infinity is last
@@ -75,12 +75,12 @@ inline Cell styled(Cell cell, std::string style, std::string means = {}) {
 
 struct Column {
     // number: right-aligned. prose: wraps on a page, and comes last in a terminal.
-    enum Kind { words, number, prose };
+    enum Kind { text, number, prose };
     enum Where { everywhere, page };
 
     std::string title;
-    Kind kind = words;
-    std::size_t width = 0;  // in a terminal, longer words overflow; 0: that of the widest cell
+    Kind kind = text;
+    std::size_t width = 0;  // in a terminal, longer text overflows; 0: that of the widest cell
     Where where = everywhere;
     std::string style{}, means{};  // CSS classes; the title's tooltip
 };

@@ -39,7 +39,7 @@ std::string classes(std::initializer_list<std::string_view> all) {
 
 std::string markupOf(const Span& span) {
     switch (span.kind) {
-        case Span::words:
+        case Span::plain:
             return span.style.empty()
                        ? markup(span.text)
                        : fmt::format("<span class=\"{}\">{}</span>", span.style, markup(span.text));

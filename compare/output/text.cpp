@@ -30,7 +30,7 @@ std::size_t widthOf(std::string_view text) {
     return width;
 }
 
-std::string wordsOf(const Text& text) {
+std::string plainText(const Text& text) {
     std::string sentence;
     for (const Span& span : text.spans)
         if (span.kind != Span::drawn) sentence += span.text;
@@ -43,7 +43,7 @@ std::string lineOf(std::string sentence) {
     return sentence;
 }
 std::string lineOf(const Text& text) {
-    return lineOf(wordsOf(text));
+    return lineOf(plainText(text));
 }
 
 // Heads and rows of some columns.
@@ -52,7 +52,7 @@ std::vector<Line> linesOf(const Table& table, const std::vector<std::size_t>& co
     for (const std::size_t i : columns) {
         lines[0].push_back(table.columns[i].title);
         for (std::size_t row = 0; row < table.rows.size(); ++row)
-            lines[row + 1].push_back(wordsOf(table.rows[row].cells.at(i).text));
+            lines[row + 1].push_back(plainText(table.rows[row].cells.at(i).text));
     }
     return lines;
 }

@@ -67,7 +67,7 @@ public:
                 {Span(mode.name, Span::title),
                  Span(fmt::format("{} \u00b7 {} \u00b7 {}", channelIndex(mode.channel),
                                   nameOf(mode.error_kind), mode.shows),
-                      Span::words, "soft"),
+                      Span::plain, "soft"),
                  Span(verdict, Span::verdict, verdict)},
                 open || (compared && channel_.stats.different > 0)};
     }
@@ -156,7 +156,7 @@ private:
         if (channel_.verdict != Verdict::fail || command_.empty()) return {};
         const std::string name(channel_.mode->name);
         const auto line = [](const char* what, const std::vector<std::string>& words) {
-            return Paragraph{{Span(what, Span::words, "soft"), Span(shellLine(words), Span::command)},
+            return Paragraph{{Span(what, Span::plain, "soft"), Span(shellLine(words), Span::command)},
                              "again"};
         };
         std::vector<Block> lines{

@@ -91,7 +91,7 @@ void addRows(output::Table& table, const FeatureChecks& feature, const Links& li
         const auto known = std::ranges::find(sentences, check.what) - sentences.begin();
         const std::size_t row = first + static_cast<std::size_t>(known);
         if (row == table.rows.size()) {
-            const Text head{Span(feature.feature, Span::strong), " ", Span(found, Span::words, "soft")};
+            const Text head{Span(feature.feature, Span::strong), " ", Span(found, Span::plain, "soft")};
             table.rows.push_back(
                 {{row == first ? head : Text(), check.what, Text()}, row == first ? "" : "more"});
             sentences.push_back(check.what);

@@ -19,7 +19,7 @@ using page::number;
 namespace {
 
 output::Text cell(double value, bool best) {
-    return Span(number(value), best ? Span::strong : Span::words);
+    return Span(number(value), best ? Span::strong : Span::plain);
 }
 
 // The metrics of both paths and of their difference; the lower error is bold.
@@ -66,7 +66,7 @@ void addMaterials(std::vector<Block>& blocks, const Report& report, const Closer
                     "Mean errors. The materials that add most to the difference of the paths (mean times "
                     "pixels) come first."};
     for (const MaterialError& m : channel.materials)
-        table.rows.push_back({{output::Text{fmt::format("{} ", m.id), Span(m.name, Span::words, "soft")},
+        table.rows.push_back({{output::Text{fmt::format("{} ", m.id), Span(m.name, Span::plain, "soft")},
                                fmt::format("{}", m.pixels), cell(m.mean[0], m.mean[0] < m.mean[1]),
                                cell(m.mean[1], m.mean[1] < m.mean[0])}});
     blocks.emplace_back(table);

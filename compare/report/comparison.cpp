@@ -41,7 +41,7 @@ std::string explainedText(const ChannelDiff& channel) {
 // The deciding metric is below the name on pages too narrow for its column.
 Cell channelCell(const ChannelDiff& channel, const std::string& id) {
     Text page = cardLink(id, *channel.mode);
-    if (channel.criterion) page.spans.emplace_back(channel.criterion->metric, Span::words, "soft judged");
+    if (channel.criterion) page.spans.emplace_back(channel.criterion->metric, Span::plain, "soft judged");
     return either(channel.mode->name, page);
 }
 
@@ -53,8 +53,8 @@ Cell metricCell(const DebugMode& mode) {
 
 Cell usedCell(const ChannelDiff& channel) {
     if (!isCompared(channel.verdict)) return "";
-    if (channel.stats.different == 0) return Span("equal", Span::words, "soft");
-    if (!channel.rule.empty()) return Span(channel.rule, Span::words, "soft wide");
+    if (channel.stats.different == 0) return Span("equal", Span::plain, "soft");
+    if (!channel.rule.empty()) return Span(channel.rule, Span::plain, "soft wide");
     return Span(fmt::format("<span class=\"meter {}\"><i style=\"width:{:.1f}%\"></i></span>",
                             nameOf(channel.verdict), 100 * std::min(usedFraction(channel), 1.0)),
                 Span::drawn);
@@ -67,7 +67,7 @@ Cell verdictCell(const ChannelDiff& channel) {
     if (channel.verdict == Verdict::fail && channel.criterion && channel.criterion->pixels > 0)
         page.spans.emplace_back(fmt::format("{} of the pixels{}", percentText(channel.criterion->fraction),
                                             channel.criterion->differing ? " differ" : ""),
-                                Span::words, "beyond");
+                                Span::plain, "beyond");
     return either(channel.verdict == Verdict::fail ? "FAIL" : verdict, page);
 }
 
@@ -166,7 +166,7 @@ Text findingOf(const ChannelDiff& channel, const std::string& card) {
                                   ? fmt::format("tolerance per pixel, at most {}", page::number(largest))
                                   : fmt::format("tolerance {}", page::number(largest));
     text.spans.emplace_back(fmt::format(" ({}{}{})", limit, because.empty() ? "" : ", because ", because),
-                            Span::words, "soft");
+                            Span::plain, "soft");
     return text;
 }
 

@@ -69,7 +69,7 @@ void addBox(std::vector<Block>& blocks, const char* style, const std::string& he
     const std::size_t left = items.size() - std::min(items.size(), max);
     items.resize(items.size() - left);
     if (left > 0)
-        items.emplace_back(Span(fmt::format("and {} more: {}", left, elsewhere), Span::words, "soft"));
+        items.emplace_back(Span(fmt::format("and {} more: {}", left, elsewhere), Span::plain, "soft"));
     blocks.emplace_back(Box{style, {Heading{4, heading}, output::List{std::move(items)}}});
 }
 constexpr const char* inJson = "report.json has all of them";

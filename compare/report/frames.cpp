@@ -77,7 +77,7 @@ Box times(const Frame& a, const Frame& b) {
         };
         add(Span(frame->name, Span::strong), frame->time.median, Span::strong);
         for (const PassTime& pass : frame->passes)
-            add(Span(pass.name, Span::words, "soft"), pass.ms, Span::words);
+            add(Span(pass.name, Span::plain, "soft"), pass.ms, Span::plain);
     }
     return {"box", {Heading{4, "Time"}, table}};
 }
@@ -134,7 +134,7 @@ Box settings(const Frame& a, const Frame& b) {
     return {"box settings",
             {table},
             "",
-            {Span("Settings ", Span::strong), Span("all; differences are coloured", Span::words, "soft")}};
+            {Span("Settings ", Span::strong), Span("all; differences are coloured", Span::plain, "soft")}};
 }
 
 Paragraph camera(const Report& report, const Frame& frame) {

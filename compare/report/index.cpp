@@ -41,7 +41,7 @@ Cell sinceCell(const Trend& trend) {
     for (const MovedMetric& one : trend.moved) all += (all.empty() ? "" : "; ") + movedText(one);
     output::Text text(trend.kind == TrendKind::same ? "" : nameOf(trend.kind));
     if (!trend.moved.empty())
-        text.spans.insert(text.spans.end(), {" ", {movedText(trend.moved[0]), Span::words, "soft"}});
+        text.spans.insert(text.spans.end(), {" ", {movedText(trend.moved[0]), Span::plain, "soft"}});
     return styled(text, "", all);
 }
 
@@ -199,7 +199,7 @@ std::vector<output::Block> indexBlocks(const Report& report, const ReportLayout&
     const output::Drawing metrics{fmt::format("<script type=\"application/json\" id=\"figures\">{}</script>",
                                               metricsOf(layout, texts))};
     return {output::Box{"index",
-                        {output::Heading{2, {"Comparisons ", Span("", Span::words, "shown soft")}}, filters,
+                        {output::Heading{2, {"Comparisons ", Span("", Span::plain, "shown soft")}}, filters,
                          tableOf(report, layout, texts), metrics}}};
 }
 

@@ -69,7 +69,7 @@ using Fronts = std::array<std::vector<std::size_t>, errorMetrics.size()>;
 
 output::Table sweepHead() {
     output::Table table = headOf(sweepMeasures);
-    table.columns.push_back({"front", Column::words, 0, Column::page});
+    table.columns.push_back({"front", Column::text, 0, Column::page});
     return table;
 }
 
@@ -152,7 +152,7 @@ std::vector<ShadowRow> shadowRowsOf(const Tradeoff& tradeoff) {
 std::vector<output::Block> shadowBlocks(const Tradeoff& tradeoff) {
     const auto shown = metrics(Measure::shadow_error, Measure::gap);
     output::Table table = headOf(shown);
-    table.columns.push_back({"dominated in", Column::words, 12});
+    table.columns.push_back({"dominated in", Column::text, 12});
     for (const ShadowRow& row : shadowRowsOf(tradeoff))
         table.rows.emplace_back(rowOf(tradeoff, row.row, settingsText(tradeoff, row.row, "shadows"), shown))
             .cells.emplace_back(beatenIn(row));
@@ -232,19 +232,21 @@ output::Table csvTable(const Tradeoff& tradeoff) {
 
 TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Settings>& rows, std::size_t columns,
                              bool commands)
-    : head_(sweepHead()), words_(std::string_view("settings").size()), commands_(commands) {
+    : head_(sweepHead()), settings_width_(std::string_view("settings").size()), commands_(commands) {
     for (const Settings& row : rows)
-        words_ = std::max(words_, describe(changesOf(row, tradeoff.requested)).size());
+        settings_width_ = std::max(settings_width_, describe(changesOf(row, tradeoff.requested)).size());
     std::size_t width = 0;
     for (const Column& column : head_.columns)
         if (column.kind == Column::number) width += column.width + head_.gap;
     for (const std::string_view title : leftOut) {
-        if (columns == 0 || width + std::min(words_, fewestWords) <= columns) break;
+        if (columns == 0 || width + std::min(settings_width_, fewestWords) <= columns) break;
         Column& column = *std::ranges::find(head_.columns, title, &Column::title);
         column.where = Column::page;
         width -= column.width + head_.gap;
     }
-    if (columns > 0) words_ = std::min(words_, std::max(columns - std::min(columns, width), fewestWords));
+    if (columns > 0)
+        settings_width_ =
+            std::min(settings_width_, std::max(columns - std::min(columns, width), fewestWords));
 }
 
 std::string TradeoffTable::head() const {
@@ -255,8 +257,8 @@ std::string TradeoffTable::line(const Tradeoff& tradeoff, std::size_t index) con
     const TradeoffRow& row = tradeoff.rows[index];
     output::Table table = head_;
     table.rows = {sweepRow(tradeoff, index, {})};
-    if (const std::string words = describe(row, tradeoff.requested); words.size() > words_)
-        table.rows[0].cells[1] = words.substr(0, words_ - 3) + "...";
+    if (const std::string words = describe(row, tradeoff.requested); words.size() > settings_width_)
+        table.rows[0].cells[1] = words.substr(0, settings_width_ - 3) + "...";
     std::string line = inText(table, 1);
     if (commands_)
         line += fmt::format("{:>{}}{}\n", "", table.columns[0].width + table.gap,

@@ -38,13 +38,13 @@ struct Codec<T> {
         for (const auto& [value, name] : enumNames<T>()) all.append(all.empty() ? "" : "|").append(name);
         return all;
     }
-    static std::string words(T value) { return std::string(nameOf(value)); }
+    static std::string describe(T value) { return std::string(nameOf(value)); }
     static bool read(T& value, std::string_view text) {
         for (const auto& [candidate, name] : enumNames<T>())
             if (name == text) return value = candidate, true;
         return false;
     }
-    static Json json(T value) { return words(value); }
+    static Json toJson(T value) { return describe(value); }
     static bool fromJson(T& value, const Json& json) {
         return json.is_string() && read(value, json.get_ref<const std::string&>());
     }
@@ -53,7 +53,7 @@ struct Codec<T> {
 template <class T>
 requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) struct Codec<T> {
     static std::string accepted() { return std::is_integral_v<T> ? "N" : "F"; }
-    static std::string words(T value) { return fmt::format("{}", value); }
+    static std::string describe(T value) { return fmt::format("{}", value); }
     static bool read(T& value, std::string_view text) {
         const char* end = text.data() + text.size();
         const auto [rest, error] = std::from_chars(text.data(), end, value);
@@ -61,10 +61,10 @@ requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) struct Codec<T> {
                std::isfinite(static_cast<double>(value));
     }
     // A float uses its shortest decimal: 0.1, not 0.10000000149011612.
-    static Json json(T value) {
+    static Json toJson(T value) {
         if constexpr (!std::is_same_v<T, float>) return value;
         double shortest = 0;
-        Codec<double>::read(shortest, words(value));
+        Codec<double>::read(shortest, describe(value));
         return shortest;
     }
     static bool fromJson(T& value, const Json& json) {
@@ -76,12 +76,12 @@ requires(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) struct Codec<T> {
 template <>
 struct Codec<bool> {
     static std::string accepted() { return "on|off"; }
-    static std::string words(bool value) { return value ? "on" : "off"; }
+    static std::string describe(bool value) { return value ? "on" : "off"; }
     static bool read(bool& value, std::string_view text) {
         value = text == "on";
         return value || text == "off";
     }
-    static Json json(bool value) { return value; }
+    static Json toJson(bool value) { return value; }
     static bool fromJson(bool& value, const Json& json) {
         if (json.is_boolean()) return value = json.get<bool>(), true;
         return json.is_string() && read(value, json.get_ref<const std::string&>());
@@ -91,9 +91,9 @@ struct Codec<bool> {
 template <>
 struct Codec<std::string> {
     static std::string accepted() { return "TEXT"; }
-    static std::string words(const std::string& value) { return value; }
+    static std::string describe(const std::string& value) { return value; }
     static bool read(std::string& value, std::string_view text) { return value = text, true; }
-    static Json json(const std::string& value) { return value; }
+    static Json toJson(const std::string& value) { return value; }
     static bool fromJson(std::string& value, const Json& json) {
         return json.is_string() && read(value, json.get_ref<const std::string&>());
     }
@@ -121,12 +121,12 @@ bool listFromJson(T* (&parts)[n], const Json& json, char separator) {
 template <>
 struct Codec<Size> {
     static std::string accepted() { return "WxH"; }
-    static std::string words(Size value) { return fmt::format("{}x{}", value.width, value.height); }
+    static std::string describe(Size value) { return fmt::format("{}x{}", value.width, value.height); }
     static bool read(Size& value, std::string_view text) {
         int* parts[] = {&value.width, &value.height};
         return readList(parts, text, 'x');
     }
-    static Json json(Size value) { return Json::array({value.width, value.height}); }
+    static Json toJson(Size value) { return Json::array({value.width, value.height}); }
     static bool fromJson(Size& value, const Json& json) {
         int* parts[] = {&value.width, &value.height};
         return listFromJson(parts, json, 'x');
@@ -136,14 +136,14 @@ struct Codec<Size> {
 template <>
 struct Codec<Rgb> {
     static std::string accepted() { return "F,F,F"; }
-    static std::string words(Rgb value) { return fmt::format("{},{},{}", value.r, value.g, value.b); }
+    static std::string describe(Rgb value) { return fmt::format("{},{},{}", value.r, value.g, value.b); }
     static bool read(Rgb& value, std::string_view text) {
         float* parts[] = {&value.r, &value.g, &value.b};
         return readList(parts, text, ',');
     }
-    static Json json(Rgb value) {
+    static Json toJson(Rgb value) {
         return Json::array(
-            {Codec<float>::json(value.r), Codec<float>::json(value.g), Codec<float>::json(value.b)});
+            {Codec<float>::toJson(value.r), Codec<float>::toJson(value.g), Codec<float>::toJson(value.b)});
     }
     static bool fromJson(Rgb& value, const Json& json) {
         float* parts[] = {&value.r, &value.g, &value.b};
@@ -206,7 +206,7 @@ void visitField(Self& settings, std::string_view option, Visit&& visit) {
 std::string toJson(const Settings& settings, int indent) {
     Json object = Json::object();
     Settings::fields(settings, [&](const Field& field, const auto& member) {
-        object[keyOf(field.option)] = CodecOf<decltype(member)>::json(member);
+        object[keyOf(field.option)] = CodecOf<decltype(member)>::toJson(member);
     });
     return jsonText(object, indent);
 }
@@ -254,10 +254,10 @@ Settings settingsFromJson(const std::string& text, const Settings& base) {
     for (const char* option : {"debug", "channels", "exposure", "ev100", "no_tonemap", "frames", "fps",
                                "heat", "runs", "device", "validate", "baseline"})
         if (unknown.contains(option)) {
-            std::string words(option);
-            std::ranges::replace(words, '_', '-');
+            std::string name(option);
+            std::ranges::replace(name, '_', '-');
             throw std::runtime_error(
-                fmt::format("settings: \"{}\" is not a setting; use the option --{}", option, words));
+                fmt::format("settings: \"{}\" is not a setting; use the option --{}", option, name));
         }
     if (!unknown.empty())
         throw std::runtime_error(fmt::format("settings: unknown key \"{}\"", oneLine(*unknown.begin())));
@@ -276,10 +276,10 @@ void Settings::set(std::string_view option, const std::string& value) {
 }
 
 std::string Settings::valueOf(std::string_view option) const {
-    std::string words;
+    std::string text;
     visitField(*this, option,
-               [&](const Field&, const auto& member) { words = CodecOf<decltype(member)>::words(member); });
-    return words;
+               [&](const Field&, const auto& member) { text = CodecOf<decltype(member)>::describe(member); });
+    return text;
 }
 
 std::string acceptedValues(std::string_view option) {

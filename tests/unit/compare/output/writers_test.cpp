@@ -12,10 +12,10 @@ namespace {
 
 Table fruit() {
     return {
-        {{"name", Column::words, 6},
+        {{"name", Column::text, 6},
          {"why", Column::prose},
          {"g", Column::number, 4},
-         {"colour", Column::words, 0, Column::page},
+         {"colour", Column::text, 0, Column::page},
          {"code"}},
         {{{"fig", "ripe", "40", "violet", "a1"}},
          {{Text{Span("", Span::swatch, "deferred"), "a<b"}, either("-", ""),
@@ -52,7 +52,7 @@ TEST(OutputText, ANameBeginsNoLineOfItsOwn) {
 }
 
 TEST(OutputText, GroupsStandAboveTheMiddleOfTheirColumns) {
-    const Table table{.columns = {{"", Column::words, 3}, {"a", Column::number, 3}, {"b", Column::number, 4}},
+    const Table table{.columns = {{"", Column::text, 3}, {"a", Column::number, 3}, {"b", Column::number, 4}},
                       .rows = {{{"x", "1", "2"}}},
                       .groups = {{"", 1}, {"both", 2}}};
     EXPECT_EQ(inText(table), "      both    \n       a     b\nx      1     2\n");
@@ -84,7 +84,7 @@ TEST(OutputHtml, ATableHasItsClassesValuesAndHeads) {
 
 TEST(OutputHtml, EveryKindOfTextIsEscaped) {
     for (const Span::Kind kind :
-         {Span::words, Span::name, Span::foreign, Span::strong, Span::link, Span::verdict, Span::command}) {
+         {Span::plain, Span::name, Span::foreign, Span::strong, Span::link, Span::verdict, Span::command}) {
         const std::string page = inHtml(Text{Span("<&_\"", kind, "s")});
         EXPECT_EQ(markupFault(page, {"wbr"}), "") << page;
         EXPECT_NE(page.find("&lt;&amp;_"), std::string::npos) << page;
