@@ -8,7 +8,7 @@
 #include "compare/experiment/sweep.h"
 #include "compare/frames/frame_properties.h"
 #include "compare/page/text.h"
-#include "compare/render/shown_scene.h"
+#include "compare/render/load_scene.h"
 #include "compare/run/command_text.h"
 #include "shared/draw/depth_storage.h"
 
@@ -128,8 +128,8 @@ SceneChooser::LoadedScene& SceneChooser::load(const std::string& scene, const St
         if (const auto before = references_.find(loaded_->where); before != references_.end())
             for (const auto& errors : before->second.errors) errors->release();
     loaded_.reset();
-    loaded_ = std::make_unique<LoadedScene>(scene, loadShown(scene, question_.settings, progress), device_,
-                                            pipelines_);
+    loaded_ = std::make_unique<LoadedScene>(scene, loadSceneWithSettings(scene, question_.settings, progress),
+                                            device_, pipelines_);
     if (const auto references = references_.find(scene); references != references_.end())
         loaded_->evaluator.emplace(loaded_->renderer, references->second, question_.budget.metric,
                                    question_.drawing);

@@ -121,7 +121,7 @@ struct AuditOpening {
           progress(progressOutput(options)),
           device(deviceOptions(options)),
           stage(progress, options.scenes.front()),
-          scene(loadShown(options.scenes.front(), settings, stage.part(0, 0.02))),
+          scene(loadSceneWithSettings(options.scenes.front(), settings, stage.part(0, 0.02))),
           subject(audit::makeSubject(scene, settings)),
           audited{options.scenes.front(), settings.camera.empty() ? subject.view_name : settings.camera,
                   settings, reportDevice(device), scene.notes} {

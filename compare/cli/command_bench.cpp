@@ -128,7 +128,7 @@ int runBench(const BenchLine& options) {
         const double from = static_cast<double>(i) / groups, to = static_cast<double>(i + 1) / groups;
         const double read = from + 0.1 * (to - from);
         if (isHopeless(bench, group)) continue;
-        const Scene scene = loadShown(group.scene, options.settings, whole.part(from, read));
+        const Scene scene = loadSceneWithSettings(group.scene, options.settings, whole.part(from, read));
         const std::size_t first = bench.rows.size();
         measureGroup(device, pipelines, group, scene, bench, whole.part(read, to));
         if (registers) registers->count(scene, std::span(bench.rows).subspan(first));

@@ -128,7 +128,7 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     const std::string& name = options.scenes.front();
     const Stage drawn_stage = Stage(progress, name).part(0, experiment::fractionsOf(render).drawn);
     const double loading = loadingFraction(name, render, settings.size());
-    const Scene scene = loadShown(name, options.settings, drawn_stage.part(0, loading));
+    const Scene scene = loadSceneWithSettings(name, options.settings, drawn_stage.part(0, loading));
     if (!options.allow_empty) requireTriangles(scene, name);
     const double ours = loading + compared.ourFraction() * (1 - loading);
     render.progress = drawn_stage.part(loading, ours);

@@ -168,7 +168,7 @@ int explainScene(const ExplainLine& options) {
     const ImageChoice image = imageChoice(options);
     Progress progress(progressOutput(options));
     const Stage stage(progress, of.scene);
-    const Scene scene = loadShown(of.scene, options.settings, stage.part(0, 0.1));
+    const Scene scene = loadSceneWithSettings(of.scene, options.settings, stage.part(0, 0.1));
     Device device(deviceOptions(options));
     of.device = device.info().name;
     const std::unique_ptr<Device> other = againstDevice(options);
@@ -262,7 +262,7 @@ int explainFiles(const ExplainLine& options) {
          {"Every channel of both", shellLine({"diff", options.scenes[0], options.scenes[1]})}}};
     const ImageChoice image = imageChoice(options);
     const Stage stage(progress, where);
-    const Scene scene = loadShown(where, a.settings, stage.part(0, 0.3));
+    const Scene scene = loadSceneWithSettings(where, a.settings, stage.part(0, 0.3));
     Device device(deviceOptions(options));
     of.device = device.info().name;
     say(options, "on " + of.device);

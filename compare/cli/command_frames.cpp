@@ -48,7 +48,7 @@ public:
         : options_(options),
           made_(made),
           output_(outputIn(options)),
-          shown_(shownChannels(options)),
+          channels_(selectedChannels(options)),
           image_(imageChoice(options)),
           result_(resultOf(made)) {
         // Fail before rendering if an output cannot be replaced.
@@ -74,7 +74,7 @@ public:
         } else {
             const std::vector<fs::path> files = filesOf(index);
             const fs::path file = fileOfFrame(output_.path, indexSuffix(index, options_.frames));
-            writeFrame(frame, made_, {output_.kind, file}, shown_, image_);
+            writeFrame(frame, made_, {output_.kind, file}, channels_, image_);
             entry["file"] = file.string();
             if (output_.kind == OutputKind::png)
                 for (const fs::path& of : files) entry["files"].push_back(of.string());
@@ -99,7 +99,7 @@ private:
     // Files of one image. Only for outputs that are not folders.
     std::vector<fs::path> filesOf(int index) const {
         const fs::path file = fileOfFrame(output_.path, indexSuffix(index, options_.frames));
-        return output_.kind == OutputKind::png ? imageFiles(file, shown_) : std::vector{file};
+        return output_.kind == OutputKind::png ? imageFiles(file, channels_) : std::vector{file};
     }
 
     // The first image sets the exposure of all; automatic exposure per image would flicker.
@@ -116,9 +116,9 @@ private:
     fs::path writeInFolder(const Frame& frame, int index, Json& entry) {
         const std::string ending = indexSuffix(index, options_.frames);
         const std::string exr = fmt::format("{}.{}.exr", frame.name, ending);
-        writeFrame(frame, made_, {OutputKind::exr, *folder_ / exr}, shown_, image_);
+        writeFrame(frame, made_, {OutputKind::exr, *folder_ / exr}, channels_, image_);
         files_.push_back(exr);
-        for (const DebugMode* mode : shown_) {
+        for (const DebugMode* mode : channels_) {
             files_.push_back(fmt::format("{}.{}.png", mode->name, ending));
             writeFrame(frame, made_, {OutputKind::png, *folder_ / files_.back()}, {mode}, image_);
         }
@@ -140,7 +140,7 @@ private:
     const RenderLine& options_;
     const ReportDevice made_;
     const Output output_;
-    const ShownChannels shown_;
+    const ChannelSelection channels_;
     ImageChoice image_;
     Json result_;
     std::optional<OutputFolder> folder_;
@@ -188,7 +188,7 @@ int runFrames(const RenderLine& options) {
     const auto frames = static_cast<std::size_t>(options.frames);
     const double loading = loadingFraction(name, render, frames);
     say(options, name);
-    const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
+    const Scene scene = loadSceneWithSettings(name, options.settings, stage.part(0, loading));
     FrameSource source(scene, device ? &*device : nullptr);
     for (int i = 0; i < options.frames; ++i) {
         settings.time = timeOfFrame(options, i);

@@ -45,7 +45,7 @@ int runPixel(const CompareLine& options) {
     const std::string& where = options.scenes.front();
     Progress progress(progressOutput(options));
     const Stage stage(progress, where);
-    const Scene scene = loadShown(where, options.settings, stage.part(0, 0.1));
+    const Scene scene = loadSceneWithSettings(where, options.settings, stage.part(0, 0.1));
     Device device(deviceOptions(options));
     say(options, "on " + device.info().name);
     SceneViews views(scene);

@@ -50,7 +50,7 @@ int runPlan(const PlanLine& options) {
     Json scenes = Json::array();
     bool compiles = true;
     for (const std::string& name : options.scenes) {
-        const Scene scene = loadShown(name, options.settings, Stage(progress, name));
+        const Scene scene = loadSceneWithSettings(name, options.settings, Stage(progress, name));
         SceneViews views(scene);
         const SceneView& view = views.at(viewRequest(settings.front()));
         const bench::ScenePlan result{

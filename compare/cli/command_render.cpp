@@ -60,7 +60,7 @@ std::vector<Frame> drawAll(const RenderLine& options, const std::vector<Settings
         const auto done = static_cast<double>(i);
         const Stage stage = Stage(progress, name).part(drawn * done / scenes, drawn * (done + 1) / scenes);
         const double loading = loadingFraction(name, render, settings.size());
-        const Scene scene = loadShown(name, options.settings, stage.part(0, loading));
+        const Scene scene = loadSceneWithSettings(name, options.settings, stage.part(0, loading));
         render.progress = stage.part(loading, 1);
         std::ranges::move(
             device ? renderAll(*device, scene, settings, render) : drawWithoutDevice(scene, settings, render),
@@ -75,12 +75,12 @@ std::vector<std::filesystem::path> writeAll(const RenderLine& options, const Ima
                                             const std::vector<Frame>& frames, Json& result,
                                             const ReportDevice& device, const Stage& progress) {
     const Output output = outputIn(options);
-    const ShownChannels shown = shownChannels(options);
+    const ChannelSelection selected = selectedChannels(options);
     if (output.kind != OutputKind::folder) {
         progress.at(0, "write");
-        writeFrame(frames.front(), device, output, shown, image);
+        writeFrame(frames.front(), device, output, selected, image);
         if (output.kind != OutputKind::png) return {output.path};
-        const std::vector<std::filesystem::path> files = imageFiles(output.path, shown);
+        const std::vector<std::filesystem::path> files = imageFiles(output.path, selected);
         for (const std::filesystem::path& file : files) result["frames"][0]["files"].push_back(file.string());
         return {files.size() == 1 ? output.path : output.path.parent_path() / imageNames(files)};
     }
@@ -92,7 +92,7 @@ std::vector<std::filesystem::path> writeAll(const RenderLine& options, const Ima
         progress.at(static_cast<double>(i) / static_cast<double>(frames.size()), "write");
         const std::string inner = frames.size() > 1 ? std::to_string(i + 1) : "";
         if (!inner.empty()) folder.makeFolders({inner + "/lit.exr"});
-        for (const std::string& name : writeFrameFolder(frames[i], device, folder / inner, shown, image))
+        for (const std::string& name : writeFrameFolder(frames[i], device, folder / inner, selected, image))
             files.push_back(inner.empty() ? name : inner + "/" + name);
         targets.push_back(inner.empty() ? output.path : output.path / inner);
         result["frames"][i]["file"] = targets.back().string();
@@ -118,7 +118,7 @@ int runRender(const RenderLine& options) {
         refuse("-o {}: a file holds one Frame, but several are rendered; give a folder",
                output.path.string());
     if (output.kind == OutputKind::png)
-        for (const std::filesystem::path& file : imageFiles(output.path, shownChannels(options)))
+        for (const std::filesystem::path& file : imageFiles(output.path, selectedChannels(options)))
             checkReplaceable({OutputKind::png, file}, single_manifest, options.force);
     else
         checkFolder(output, count, options.force);
@@ -193,19 +193,19 @@ void checkChannels(const RenderLine& options) {
     check(debugMode(options.shown), options.heat ? "--heat:" : "--debug");
 }
 
-ShownChannels shownChannels(const RenderLine& options) {
-    ShownChannels shown;
-    for (const Channel channel : options.channels) shown.push_back(&debugMode(channel));
-    if ((shown.empty() || options.debug_requested || options.heat) &&
+ChannelSelection selectedChannels(const RenderLine& options) {
+    ChannelSelection selected;
+    for (const Channel channel : options.channels) selected.push_back(&debugMode(channel));
+    if ((selected.empty() || options.debug_requested || options.heat) &&
         std::ranges::count(options.channels, options.shown) == 0)
-        shown.push_back(&debugMode(options.shown));
-    return shown;
+        selected.push_back(&debugMode(options.shown));
+    return selected;
 }
 
 std::vector<Channel> channelsFor(OutputKind kind, const RenderLine& options, std::vector<Channel> requested) {
     if (kind == OutputKind::exr) return requested;
     if (kind == OutputKind::png) requested.clear();
-    for (const DebugMode* mode : shownChannels(options))
+    for (const DebugMode* mode : selectedChannels(options))
         if (std::ranges::count(requested, mode->channel) == 0) requested.push_back(mode->channel);
     for (const Channel needed : {Channel::lit, Channel::material_id})
         if (std::ranges::count(requested, needed) == 0) requested.push_back(needed);

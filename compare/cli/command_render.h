@@ -32,7 +32,7 @@ std::vector<std::string> earlierIn(const Output& output, std::size_t count, bool
 // Throws if the path does not support a channel that was requested by name.
 void checkChannels(const RenderLine& options);
 // Channels shown in images: those requested by name, and --debug. Default: lit.
-ShownChannels shownChannels(const RenderLine& options);
+ChannelSelection selectedChannels(const RenderLine& options);
 // Channels to render. An EXR needs the requested ones. Images need the shown ones, lit for the exposure,
 // and material_id for the background.
 std::vector<Channel> channelsFor(OutputKind kind, const RenderLine& options, std::vector<Channel> requested);

@@ -223,7 +223,7 @@ int mergeTradeoffs(const OutputGroup& options, const std::vector<std::string>& s
             copyBelow(from, item.folder + name, out / name);
             out.list(name);
         }
-        out.finish(shownText(textBelow(from, manifest, json_bytes)));
+        out.finish(escapeControls(textBelow(from, manifest, json_bytes)));
         done.push_back(&item);
     }
     const shards::Manifest manifest = chosen.manifest;

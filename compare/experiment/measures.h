@@ -11,7 +11,7 @@ namespace diptych::experiment {
 
 // How the row of several cameras follows from theirs: the mean (none if one is missing), the largest, the
 // sum, or not at all (errors are over all cameras' pixels).
-enum class OverCameras { mean, largest, sum, apart };
+enum class OverCameras { mean, largest, sum, separate };
 
 struct NamedMeasure {
     std::string_view group, name;  // keys in JSON
@@ -55,17 +55,17 @@ struct NamedMeasure {
       "pixels with another material than traced rays, or none")                                              \
     X(registers, "registers", "most", "count", largest, "registers",                                         \
       "vector registers of the largest shading pipeline")                                                    \
-    X(flip, "errors", "flip", "", apart, "FLIP", "mean HDR-FLIP, 0 to 1")                                    \
-    X(relative_rmse, "errors", "relative_rmse", "", apart, "relative RMSE",                                  \
+    X(flip, "errors", "flip", "", separate, "FLIP", "mean HDR-FLIP, 0 to 1")                                 \
+    X(relative_rmse, "errors", "relative_rmse", "", separate, "relative RMSE",                               \
       "root mean square of the relative error")                                                              \
-    X(relative_p99, "errors", "relative_p99", "", apart, "relative p99",                                     \
+    X(relative_p99, "errors", "relative_p99", "", separate, "relative p99",                                  \
       "99th percentile of the relative error, nearest rank")                                                 \
-    X(light_p99, "errors", "light_p99", "", apart, "light",                                                  \
+    X(light_p99, "errors", "light_p99", "", separate, "light",                                               \
       "99th percentile of lit's relative error where a surface shows; of 8-bit images, fraction of white")   \
-    X(light_p999, "errors", "light_p999", "", apart, "light p99.9", "the same at 99.9 % of the pixels")      \
-    X(depth_p99, "errors", "depth_p99", "", apart, "depth",                                                  \
+    X(light_p999, "errors", "light_p999", "", separate, "light p99.9", "the same at 99.9 % of the pixels")   \
+    X(depth_p99, "errors", "depth_p99", "", separate, "depth",                                               \
       "99th percentile of the relative error of view depth")                                                 \
-    X(reference_moved, "errors", "reference_moved", "", apart, "reference",                                  \
+    X(reference_moved, "errors", "reference_moved", "", separate, "reference",                               \
       "error of the reference itself against its image of the unvaried scene")                               \
     X(shadow_error, "shadow", "error", "", mean, "error",                                                    \
       "sum of |V - R| E divided by the sum of R E; ranks the paths")                                         \

@@ -127,7 +127,7 @@ void joinBlocks(Row& row) {
 
 void joinCameras(Row& row) {
     for (std::size_t i = 0; i < measures.size(); ++i)
-        if (measures[i].over != OverCameras::apart)
+        if (measures[i].over != OverCameras::separate)
             row.measured[static_cast<Measure>(i)] = joined(row.cameras, static_cast<Measure>(i));
     row.passes.clear();
     for (const Row& camera : row.cameras)

@@ -6,8 +6,8 @@
 #include "compare/explain/images.h"
 #include "compare/explain/write.h"
 #include "compare/frames/frame_properties.h"
+#include "compare/render/load_scene.h"
 #include "compare/render/reference_frame.h"
-#include "compare/render/shown_scene.h"
 #include "compare/run/command_text.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/json_text.h"
@@ -34,7 +34,7 @@ bool isWanted(bool all, const Comparison& comparison) {
 struct ShownScene {
     ShownScene(const Settings& settings, Device& device, const Frame& frame, const Stage& progress)
         : name(frame.scene),
-          scene(loadShown(name, settings, progress)),
+          scene(loadSceneWithSettings(name, settings, progress)),
           views(scene),
           renderer(device, views) {}
 

@@ -26,7 +26,7 @@ namespace {
 // Prints `value`, the measured one or its limit; of a criterion that fails, with the digits that tell it from
 // `other`.
 std::string beside(const Criterion& c, double value, double other) {
-    return digitsApart(value, (c.min ? c.measured < c.limit : c.measured > c.limit) ? other : value);
+    return distinguishingDigits(value, (c.min ? c.measured < c.limit : c.measured > c.limit) ? other : value);
 }
 
 std::string explainedText(const ChannelDiff& channel) {

@@ -98,8 +98,8 @@ private:
             const Image& shown = channel.shown_error ? *channel.shown_error : errors;
             if (!images.difference.empty()) write(images.difference, errorMap(shown, images.error_top));
             images.histogram = errorHistogram(shown, comparison.coverage);
-            images.worst =
-                worstPixels(shown, worstShown, worstApart, channel.stats.worst_x, channel.stats.worst_y);
+            images.worst = worstPixels(shown, maxWorstPixels, worstPixelSpacing, channel.stats.worst_x,
+                                       channel.stats.worst_y);
         }
         writeValues(images.values, left ? left : right, left ? right : nullptr,
                     errors.empty() ? nullptr : &errors);

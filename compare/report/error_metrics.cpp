@@ -59,14 +59,14 @@ ErrorHistogram errorHistogram(const Image& errors, const Coverage& coverage) {
     return histogram;
 }
 
-std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t max, int apart, int first_x,
+std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t max, int spacing, int first_x,
                                     int first_y) {
     PixelData left = errors.data;
     std::vector<WorstPixel> worst;
     const auto take = [&](int x, int y) {
         worst.push_back({x, y, double{errors.at(x, y)}});
-        for (int v = std::max(y - apart + 1, 0); v < std::min(y + apart, errors.height); ++v)
-            for (int u = std::max(x - apart + 1, 0); u < std::min(x + apart, errors.width); ++u)
+        for (int v = std::max(y - spacing + 1, 0); v < std::min(y + spacing, errors.height); ++v)
+            for (int u = std::max(x - spacing + 1, 0); u < std::min(x + spacing, errors.width); ++u)
                 left[static_cast<std::size_t>(v) * static_cast<std::size_t>(errors.width) +
                      static_cast<std::size_t>(u)] = 0;
     };

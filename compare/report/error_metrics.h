@@ -30,10 +30,10 @@ struct WorstPixel {
     double error = 0;  // may be infinite
 };
 
-// The largest errors in descending order, each at least `apart` pixels in x or y from those before it, so
+// The largest errors in descending order, each at least `spacing` pixels in x or y from those before it, so
 // that one spot is listed once. Equal errors are listed row by row. If not negative, (first_x, first_y)
 // comes first, even if other errors became equal to it by rounding to float32.
-std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t max, int apart, int first_x = -1,
+std::vector<WorstPixel> worstPixels(const Image& errors, std::size_t max, int spacing, int first_x = -1,
                                     int first_y = -1);
 
 }  // namespace diptych

@@ -82,7 +82,7 @@ std::string worstList(const ChannelDiff& channel, const ChannelImages& images, c
     }
     return fmt::format(
         "<div class=\"worst\" title=\"at least {} pixels apart\"><h4>Worst pixels{}</h4><ol>{}</ol></div>\n",
-        worstApart, channel.shown_error ? ", by " + markup(channel.shown_error_name) : "", items);
+        worstPixelSpacing, channel.shown_error ? ", by " + markup(channel.shown_error_name) : "", items);
 }
 
 }  // namespace

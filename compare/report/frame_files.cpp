@@ -18,27 +18,28 @@ namespace diptych {
 
 namespace {
 
-void writeImage(const std::filesystem::path& file, const Frame& frame, const DebugMode& shown,
+void writeImage(const std::filesystem::path& file, const Frame& frame, const DebugMode& selected,
                 const ImageChoice& choice) {
-    if (!frame.channels.contains(shown.channel))
+    if (!frame.channels.contains(selected.channel))
         throw std::runtime_error(
-            fmt::format("--debug {}: the {} path does not have this channel{}", shown.name, frame.name,
-                        shown.maker == MadeBy::forward_only    ? "; forward_plus has it"
-                        : shown.maker == MadeBy::deferred_only ? "; deferred has it, with MSAA"
-                                                               : ""));
+            fmt::format("--debug {}: the {} path does not have this channel{}", selected.name, frame.name,
+                        selected.maker == MadeBy::forward_only    ? "; forward_plus has it"
+                        : selected.maker == MadeBy::deferred_only ? "; deferred has it, with MSAA"
+                                                                  : ""));
     const Exposure exposure = exposureFor(choice, findChannel(frame, Channel::lit), coverage(frame, frame));
     const Frame* frames[] = {&frame};
-    const ImageScale scale = scaleFor(shown, exposure, frames);
-    const Image8 image = channelImage(shown, frame, scale);
-    writePng(file, isHeat(shown) ? withHeatLegend(image, scale.high) : image);
+    const ImageScale scale = scaleFor(selected, exposure, frames);
+    const Image8 image = channelImage(selected, frame, scale);
+    writePng(file, isHeat(selected) ? withHeatLegend(image, scale.high) : image);
 }
 
 }  // namespace
 
-std::vector<std::filesystem::path> imageFiles(const std::filesystem::path& png, const ShownChannels& shown) {
-    if (shown.size() == 1) return {png};
+std::vector<std::filesystem::path> imageFiles(const std::filesystem::path& png,
+                                              const ChannelSelection& selected) {
+    if (selected.size() == 1) return {png};
     std::vector<std::filesystem::path> files;
-    for (const DebugMode* mode : shown) {
+    for (const DebugMode* mode : selected) {
         std::filesystem::path file = png;
         files.push_back(file.replace_extension(fmt::format(".{}.png", mode->name)));
     }
@@ -46,18 +47,18 @@ std::vector<std::filesystem::path> imageFiles(const std::filesystem::path& png, 
 }
 
 void writeFrame(const Frame& frame, const ReportDevice& device, const Output& output,
-                const ShownChannels& shown, const ImageChoice& choice) {
+                const ChannelSelection& selected, const ImageChoice& choice) {
     if (output.kind == OutputKind::exr) return writeFrameExr(output.path, frame, device);
-    const std::vector<std::filesystem::path> files = imageFiles(output.path, shown);
-    for (std::size_t i = 0; i < files.size(); ++i) writeImage(files[i], frame, *shown[i], choice);
+    const std::vector<std::filesystem::path> files = imageFiles(output.path, selected);
+    for (std::size_t i = 0; i < files.size(); ++i) writeImage(files[i], frame, *selected[i], choice);
 }
 
 std::vector<std::string> writeFrameFolder(const Frame& frame, const ReportDevice& device,
-                                          const std::filesystem::path& folder, const ShownChannels& shown,
-                                          const ImageChoice& choice) {
+                                          const std::filesystem::path& folder,
+                                          const ChannelSelection& selected, const ImageChoice& choice) {
     std::vector<std::string> files{frame.name + ".exr", "frame.json"};
     writeFrameExr(folder / files[0], frame, device);
-    for (const DebugMode* mode : shown) {
+    for (const DebugMode* mode : selected) {
         files.push_back(std::string(mode->name) + ".png");
         writeImage(folder / files.back(), frame, *mode, choice);
     }

@@ -211,7 +211,7 @@ std::string arrayText(const Report& report, const ReportLayout* layout, std::siz
 void writeReportJson(const Report& report, const ReportLayout* layout, const std::vector<DrawnOn>& devices,
                      const Trends* since, const GiveArray& give, const JsonSink& out) {
     // Arrays may be text from another machine.
-    const JsonSink sink = [&](std::string_view text) { out(shownText(text)); };
+    const JsonSink sink = [&](std::string_view text) { out(escapeControls(text)); };
     Json times = Json::array();
     for (const DrawnOn& one : devices) {
         times.push_back(jsonOf(one.device));

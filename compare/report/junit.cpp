@@ -128,8 +128,8 @@ private:
         const std::string limit =
             channel.criterion
                 ? fmt::format("{} {}, limit {}", channel.criterion->metric,
-                              digitsApart(channel.criterion->measured, channel.criterion->limit),
-                              digitsApart(channel.criterion->limit, channel.criterion->measured))
+                              distinguishingDigits(channel.criterion->measured, channel.criterion->limit),
+                              distinguishingDigits(channel.criterion->limit, channel.criterion->measured))
                 : "no limit";
         if (channel.verdict != Verdict::fail)
             return fmt::format("      <system-out>{}{}\n</system-out>\n", warning, markup(limit));

@@ -31,8 +31,8 @@ struct ChannelImages {
     ErrorHistogram histogram;
     std::vector<WorstPixel> worst;
 };
-inline constexpr std::size_t worstShown = 10;
-inline constexpr int worstApart = 8;  // pixels
+inline constexpr std::size_t maxWorstPixels = 10;
+inline constexpr int worstPixelSpacing = 8;  // pixels
 
 // The number of comparisons in the page itself, failing ones first. Each of the others has a table row;
 // its section loads on demand from its own file, or with --single-file from text in the page.

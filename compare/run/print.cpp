@@ -33,7 +33,7 @@ std::size_t endOfWhole(std::string_view text) {
 }  // namespace
 
 void printText(std::string_view text, ColorChoice color) {
-    const std::string shown = shownText(text);
+    const std::string shown = escapeControls(text);
     const std::string out = hasColor(color, stdout) ? colored(shown) : shown;
     if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size()) noteFailure();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The only place that writes to stdout and stderr. Output contains untrusted text, so all of it, including
-// JSON, passes shownText() or messageLine(). Only our own colours and progress line bypass them.
+// JSON, passes escapeControls() or messageLine(). Only our own colours and progress line bypass them.
 #pragma once
 
 #include "compare/run/color.h"

@@ -2,8 +2,8 @@
 #include "compare/shards/collection.h"
 
 #include "compare/frames/frame_properties.h"
+#include "compare/render/load_scene.h"
 #include "compare/render/reference_frame.h"
-#include "compare/render/shown_scene.h"
 #include "shared/scene/load.h"
 
 #include <fmt/format.h>
@@ -93,7 +93,7 @@ void Collection::compareAll() {
     // Loads the next scene while one is rendered.
     const auto load = [&](std::size_t i) {
         return std::async(std::launch::async, [this, name = left[i]->scene] {
-            return loadShown(name, question_.explanation.settings, {});
+            return loadSceneWithSettings(name, question_.explanation.settings, {});
         });
     };
     std::future<Scene> next;

@@ -5,7 +5,7 @@
 #include "compare/experiment/sensitivity.h"
 #include "compare/external/external_frame.h"
 #include "compare/frames/frame_properties.h"
-#include "compare/render/shown_scene.h"
+#include "compare/render/load_scene.h"
 #include "compare/tradeoff/measure.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/draw/depth_storage.h"
@@ -65,7 +65,7 @@ Sweep::Sweep(SweepQuestion question, Device& device, const Stage& stage)
       stage_(stage),
       tradeoff_(begun(question_, device)),
       loaded_(loadingFraction(question_.scene, question_.drawing, rows().size() * question_.cameras.size())),
-      scene_(loadShown(question_.scene, question_.settings, stage.part(0, loaded_))),
+      scene_(loadSceneWithSettings(question_.scene, question_.settings, stage.part(0, loaded_))),
       views_(scene_),
       renderer_(device, sensitiveViews()),
       pool_(renderer_),

@@ -82,8 +82,8 @@ std::string faultOf(const ChannelDiff& channel) {
         return {};
     }
     if (c.measured <= c.limit) return {};
-    const std::string measured = digitsApart(c.measured, c.limit, 4),
-                      limit = digitsApart(c.limit, c.measured, 4);
+    const std::string measured = distinguishingDigits(c.measured, c.limit, 4),
+                      limit = distinguishingDigits(c.limit, c.measured, 4);
     // At most 0.1 % of the pixels exceed the tolerance if and only if p99.9 does not.
     return channel.tolerance.max_pixels
                ? fmt::format("{} of the pixels exceed {}, and at most 0.1 % may: {} is {}{}", fraction, limit,

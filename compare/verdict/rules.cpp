@@ -152,8 +152,8 @@ std::optional<std::string> boundViolation(const Condition& c, const Measured& me
     if (!value) return fmt::format("{} is not defined for this channel", what);
     const bool min = isBetterIfMore(c.quantity.metric);
     if (min ? *value >= c.limit : *value <= c.limit) return {};
-    return fmt::format("{} {} {} {}", what, digitsApart(*value, c.limit, 4), min ? "is below" : "exceeds",
-                       digitsApart(c.limit, *value, 4));
+    return fmt::format("{} {} {} {}", what, distinguishingDigits(*value, c.limit, 4),
+                       min ? "is below" : "exceeds", distinguishingDigits(c.limit, *value, 4));
 }
 
 std::string joined(const Condition& condition, const char* word) {

@@ -19,18 +19,18 @@ std::string lower(std::string_view word) {
 }
 
 // Optimal string alignment: rows are prefixes of `a`, columns prefixes of `b`.
-std::size_t lettersApart(const std::string& a, const std::string& b) {
-    std::vector<std::vector<std::size_t>> apart(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) apart[i][0] = i;
-    for (std::size_t k = 0; k <= b.size(); ++k) apart[0][k] = k;
+std::size_t editDistance(const std::string& a, const std::string& b) {
+    std::vector<std::vector<std::size_t>> distance(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) distance[i][0] = i;
+    for (std::size_t k = 0; k <= b.size(); ++k) distance[0][k] = k;
     for (std::size_t i = 1; i <= a.size(); ++i)
         for (std::size_t k = 1; k <= b.size(); ++k) {
-            const std::size_t replaced = apart[i - 1][k - 1] + (a[i - 1] != b[k - 1]);
-            apart[i][k] = std::min({apart[i - 1][k] + 1, apart[i][k - 1] + 1, replaced});
+            const std::size_t replaced = distance[i - 1][k - 1] + (a[i - 1] != b[k - 1]);
+            distance[i][k] = std::min({distance[i - 1][k] + 1, distance[i][k - 1] + 1, replaced});
             if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
-                apart[i][k] = std::min(apart[i][k], apart[i - 2][k - 2] + 1);
+                distance[i][k] = std::min(distance[i][k], distance[i - 2][k - 2] + 1);
         }
-    return apart[a.size()][b.size()];
+    return distance[a.size()][b.size()];
 }
 
 // Longer words are not typing errors, and would take time.
@@ -44,9 +44,9 @@ std::string_view nearestWord(std::string_view word, std::span<const std::string>
     std::string_view nearest;
     std::size_t min = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
-        const std::size_t apart = lettersApart(typed, lower(candidate));
-        if (apart >= min) continue;
-        min = apart;
+        const std::size_t distance = editDistance(typed, lower(candidate));
+        if (distance >= min) continue;
+        min = distance;
         nearest = candidate;
     }
     return nearest;

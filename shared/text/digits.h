@@ -9,7 +9,7 @@
 namespace diptych {
 
 // `value` with this many significant digits, and as many more as it takes to differ from `other`.
-inline std::string digitsApart(double value, double other, int digits = 3) {
+inline std::string distinguishingDigits(double value, double other, int digits = 3) {
     while (digits < 17 && value != other &&
            fmt::format("{:.{}g}", value, digits) == fmt::format("{:.{}g}", other, digits))
         ++digits;

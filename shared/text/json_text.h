@@ -15,7 +15,7 @@ namespace diptych {
 // level; -1: all on one line.
 template <class Json>
 std::string jsonText(const Json& json, int indent = 2) {
-    return shownText(json.dump(indent, ' ', false, Json::error_handler_t::replace));
+    return escapeControls(json.dump(indent, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace diptych

@@ -79,7 +79,7 @@ std::string messageLine(std::string_view text) {
     return oneLine(spaced(text.substr(0, head + 1)), head) + oneLine(spaced(text.substr(from)), tail);
 }
 
-std::string shownText(std::string_view text) {
+std::string escapeControls(std::string_view text) {
     std::string shown;
     shown.reserve(text.size());
     const auto isPlain = [](char c) { return (c >= ' ' && c < '\x7f') || c == '\n'; };

@@ -31,7 +31,7 @@ std::string messageLine(std::string_view text);
 
 // Lines for a terminal, also for JSON. Controls except line ends are escaped as in JSON strings, like
 // "\u001b"; invalid UTF-8 becomes '?'.
-std::string shownText(std::string_view text);
+std::string escapeControls(std::string_view text);
 
 // Throws std::runtime_error if a file's name has a line break, because it would print as two lines.
 void refuseLineBreak(std::string_view name);

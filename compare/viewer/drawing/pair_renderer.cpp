@@ -2,7 +2,7 @@
 #include "compare/viewer/drawing/pair_renderer.h"
 
 #include "compare/frames/frame_properties.h"
-#include "compare/render/shown_scene.h"
+#include "compare/render/load_scene.h"
 #include "shared/frame/debug_modes.h"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ bool PairRenderer::load(const Subject& subject) {
     std::shared_ptr<const Scene> read;
     try {
         read = std::make_shared<const Scene>(
-            loadShown(subject.scene, subject.settings, Stage(finishing_, "load")));
+            loadSceneWithSettings(subject.scene, subject.settings, Stage(finishing_, "load")));
     } catch (const std::runtime_error& error) {
         loaded_ = subject;
         scene_error_ = error.what();

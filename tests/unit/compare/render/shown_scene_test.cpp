@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Memory that names of scenes and of rigs ask for is estimated before it is taken.
-#include "compare/render/shown_scene.h"
+#include "compare/render/load_scene.h"
 #include "shared/scene/load.h"
 #include "tests/support/errors.h"
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 TEST(FrameFiles, OneFrameAsFileOrFolder) {
     const fs::path here = folder();
     const Frame frame = bothFrames()[1];
-    const ShownChannels lit{&debugMode(Channel::lit)};
+    const ChannelSelection lit{&debugMode(Channel::lit)};
     writeFrame(frame, {}, {OutputKind::exr, here / "a.exr"}, lit, {});
     EXPECT_EQ(readExr(here / "a.exr").layers[0].image.at(1, 2, 0), 0.5f);
     writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, lit, {});
@@ -39,7 +39,7 @@ TEST(FrameFiles, OneFrameAsFileOrFolder) {
 TEST(FrameFiles, AnImageOfEachChannelAskedFor) {
     const fs::path here = folder();
     const Frame frame = bothFrames()[1];
-    const ShownChannels two{&debugMode(Channel::lit), &debugMode(Channel::normals)};
+    const ChannelSelection two{&debugMode(Channel::lit), &debugMode(Channel::normals)};
     writeFrame(frame, {}, {OutputKind::png, here / "a.png"}, two, {});
     EXPECT_EQ(namesIn(here), (std::vector<std::string>{"a.lit.png", "a.normals.png"}));
     const auto pixels = [](const fs::path& file) { return readPng(file).data; };

@@ -16,10 +16,10 @@ namespace diptych {
 namespace {
 
 TEST(Digits, TellNumbersApart) {
-    EXPECT_EQ(digitsApart(0.0123456, 0.01), "0.0123");
-    EXPECT_EQ(digitsApart(0.0100004, 0.01), "0.0100004");
-    EXPECT_EQ(digitsApart(0.01, 0.0100004), "0.01");
-    EXPECT_EQ(digitsApart(0.01, 0.01, 4), "0.01");
+    EXPECT_EQ(distinguishingDigits(0.0123456, 0.01), "0.0123");
+    EXPECT_EQ(distinguishingDigits(0.0100004, 0.01), "0.0100004");
+    EXPECT_EQ(distinguishingDigits(0.01, 0.0100004), "0.01");
+    EXPECT_EQ(distinguishingDigits(0.01, 0.01, 4), "0.01");
 }
 
 TEST(OneLine, ControlCharactersAreShownAsQuestionMarks) {
@@ -72,13 +72,13 @@ TEST(Controls, NoneReachesALine) {
 }
 
 TEST(Controls, StandInLinesAsJsonWritesThem) {
-    EXPECT_EQ(shownText("a\x1b[1m\nb\u009b\u202e\t\x7f"), "a\\u001b[1m\nb\\u009b\\u202e\\u0009\\u007f");
-    EXPECT_EQ(shownText("\xff\xc3"), "??") << "no UTF-8";
-    EXPECT_EQ(shownText("größer\U0001f600"), "größer\U0001f600");
+    EXPECT_EQ(escapeControls("a\x1b[1m\nb\u009b\u202e\t\x7f"), "a\\u001b[1m\nb\\u009b\\u202e\\u0009\\u007f");
+    EXPECT_EQ(escapeControls("\xff\xc3"), "??") << "no UTF-8";
+    EXPECT_EQ(escapeControls("größer\U0001f600"), "größer\U0001f600");
     for (const std::string& control : controls()) {
         // As in a report, where the library only escapes C0.
         const nlohmann::json value = {{"scene", "a" + control + "b"}};
-        const std::string shown = shownText(value.dump(2));
+        const std::string shown = escapeControls(value.dump(2));
         EXPECT_EQ(nlohmann::json::parse(shown), value) << shown;
         for (const std::string& other : controls())
             EXPECT_TRUE(other == "\n" || shown.find(other) == shown.npos) << shown;
@@ -89,7 +89,7 @@ TEST(Controls, NeighboursArePlainText) {
     for (const char* text : {" ", "~", "\u00a0", "\u061b", "\u061d", "\u200d", "\u2010", "\u2027", "\u202f",
                              "\u2065", "\u206a", "\u05d0"}) {
         EXPECT_EQ(oneLine(text), text);
-        EXPECT_EQ(shownText(text), text);
+        EXPECT_EQ(escapeControls(text), text);
     }
 }
 

@@ -14,7 +14,7 @@ namespace diptych {
 
 // Loads the scene (shared/scene/load.h), the variant and the environment of the Settings; reports to
 // `progress`. Throws std::runtime_error, one line, naming the file.
-Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress);
+Scene loadSceneWithSettings(const std::string& where, const Settings& settings, const Stage& progress);
 
 // Throws std::runtime_error, one line, if nothing in the scene has triangles: two such images always agree.
 void requireTriangles(const Scene& scene, const std::string& where);

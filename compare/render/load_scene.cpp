@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "compare/render/shown_scene.h"
+#include "compare/render/load_scene.h"
 
 #include "compare/render/host_memory.h"
+#include "compare/render/renderer.h"
 #include "compare/run/still_working.h"
 #include "shared/scene/image/environment.h"
 #include "shared/scene/lights/rig.h"
@@ -20,7 +21,7 @@
 
 namespace diptych {
 
-Scene loadShown(const std::string& where, const Settings& settings, const Stage& progress) {
+Scene loadSceneWithSettings(const std::string& where, const Settings& settings, const Stage& progress) {
     StillWorking working(progress, "read");
     std::optional<Environment> environment;
     std::vector<std::string> notes;
