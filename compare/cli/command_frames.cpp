@@ -177,7 +177,7 @@ int runFrames(const RenderLine& options) {
     Progress progress(progressOutput(options));
     std::optional<Device> device;
     if (needsDevice(settings)) device.emplace(deviceOptions(options));
-    const ReportDevice made = madeBy(device);
+    const ReportDevice made = reportDeviceOf(device);
     FrameWriter writer(options, made);
     say(options, "on " + made.name);
 

@@ -9,7 +9,7 @@
 #include "compare/report/exposure_line.h"
 #include "compare/run/print.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "shared/image/atomic_file.h"
 #include "shared/scene/builtin/builtin.h"
 #include "shared/text/json_text.h"
@@ -126,7 +126,7 @@ int runRender(const RenderLine& options) {
     Progress progress(progressOutput(options));
     std::optional<Device> device;
     if (std::ranges::any_of(settings, needsDevice)) device.emplace(deviceOptions(options));
-    const ReportDevice made = madeBy(device);
+    const ReportDevice made = reportDeviceOf(device);
     say(options, "on " + made.name);
     Json result = resultOf(made);
     // Render everything before writing, so that an unreadable scene leaves no partial folder.
@@ -186,7 +186,7 @@ std::vector<std::string> earlierIn(const Output& output, std::size_t count, bool
 
 void checkChannels(const RenderLine& options) {
     const auto check = [&](const DebugMode& mode, const char* option) {
-        if (const std::string_view why = notMadeBecause(options.settings, mode); !why.empty())
+        if (const std::string_view why = unsupportedReason(options.settings, mode); !why.empty())
             refuse("{} {}: {}", option, mode.name, why);
     };
     for (const Channel channel : options.channels) check(debugMode(channel), "--channels");
@@ -228,7 +228,7 @@ nlohmann::ordered_json resultOf(const ReportDevice& made) {
             {"frames", nlohmann::ordered_json::array()}};
 }
 
-ReportDevice madeBy(const std::optional<Device>& device) {
+ReportDevice reportDeviceOf(const std::optional<Device>& device) {
     // Named in the files of a reference that needed no device.
     return device ? reportDevice(*device)
                   : ReportDevice{"double precision, no Vulkan device", softwareName, "cpu"};

@@ -42,7 +42,7 @@ void noteIgnored(const RenderLine& options);
 // The JSON of a run, with an empty list of Frames.
 nlohmann::ordered_json resultOf(const ReportDevice& made);
 // The device named in the output; the reference needs none.
-ReportDevice madeBy(const std::optional<Device>& device);
+ReportDevice reportDeviceOf(const std::optional<Device>& device);
 // Fraction of the command's time after which rendering ends. Writing takes as long as five rendered frames
 // (lavapipe, gallery, 1280x720, all channels).
 double drawnFraction(const RenderOptions& render);

@@ -10,7 +10,7 @@
 #include "compare/verdict/encoding_use.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "shared/scene/lights/casters.h"
 #include "shared/scene/lights/lights_json.h"
 #include "shared/text/one_line.h"
@@ -152,7 +152,7 @@ private:
             step.beyond = !(step.difference <= step.tolerance.max) || (evaluated && step.explained == false);
         } else {
             const Settings& lacking = images[0] ? query_.test : query_.baseline;
-            step.tolerance.because = notMadeBecause(lacking, mode);
+            step.tolerance.because = unsupportedReason(lacking, mode);
             if (step.tolerance.because.empty())
                 step.tolerance.because = std::string(nameOf(lacking.path)) + " does not have it";
         }

@@ -8,7 +8,7 @@
 #include "compare/reference/time_estimate.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -52,7 +52,7 @@ public:
           across_((request.view.width + tileSide - 1) / tileSide),
           down_((request.view.height + tileSide - 1) / tileSide) {
         for (const DebugMode& mode : debugModes()) {
-            if (!isMadeByReference(mode)) continue;
+            if (!isSupportedByReference(mode)) continue;
             if (!request.shadow_edges && isOfShadows(mode.channel)) continue;
             const bool copied = request.mode == ReferenceMode::surface && !isShaded(mode.channel);
             Image& image = image_.channels[mode.channel];
@@ -217,7 +217,7 @@ private:
 std::vector<Channel> surfaceChannels(std::uint32_t layers) {
     std::vector<Channel> modes;
     for (const DebugMode& mode : debugModes())
-        if (!isShaded(mode.channel) && isMadeByReference(mode) && mayShow(mode.channel, layers))
+        if (!isShaded(mode.channel) && isSupportedByReference(mode) && mayShow(mode.channel, layers))
             modes.push_back(mode.channel);
     return modes;
 }
@@ -229,7 +229,7 @@ PixelLight drawPixel(const Request& request, int x, int y) {
     const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(request.view.width) +
                               static_cast<std::size_t>(x);
     for (const DebugMode& mode : debugModes()) {
-        if (!isMadeByReference(mode)) continue;
+        if (!isSupportedByReference(mode)) continue;
         glm::dvec3& value = result.channels[mode.channel] = channelValue(mode.channel, pixel);
         if (request.mode == ReferenceMode::scene || isShaded(mode.channel)) continue;
         // Not shaded: copied from the capture, or 0 of a layer that no surface has.

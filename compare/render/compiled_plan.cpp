@@ -5,7 +5,7 @@
 #include "compare/render/prepared_view.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +23,7 @@ namespace {
 CaptureRequest everyChannel(const Settings& settings, gpu::uint layers) {
     CaptureRequest request;
     for (const DebugMode& mode : debugModes()) {
-        if (!notMadeBecause(settings, mode).empty() || !mayShow(mode.channel, layers)) continue;
+        if (!unsupportedReason(settings, mode).empty() || !mayShow(mode.channel, layers)) continue;
         request.modes.push_back(mode.channel);
         if (shadesFragments(settings.path) && isLit(mode.channel))
             request.through_gbuffer.push_back(mode.channel);

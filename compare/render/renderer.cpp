@@ -11,7 +11,7 @@
 #include "compare/run/progress.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 
 #include <fmt/format.h>
 
@@ -34,10 +34,10 @@ namespace {
 
 constexpr double captureFrames = 3;  // cost of capturing all channels; measured on lavapipe
 
-class FrameMaker {
+class FrameBuilder {
 public:
-    FrameMaker(Device& device, SharedResources& shared, SceneViews& views, const Settings& settings,
-               const RenderOptions& options)
+    FrameBuilder(Device& device, SharedResources& shared, SceneViews& views, const Settings& settings,
+                 const RenderOptions& options)
         : device_(device),
           shared_(shared),
           scene_(views.scene()),
@@ -113,7 +113,7 @@ private:
         CaptureRequest request;
         if (rechecks()) request.modes = {Channel::lit};
         for (const Channel mode : options_.channels)
-            if (mode != Channel::lit && notMadeBecause(settings_, debugMode(mode)).empty() &&
+            if (mode != Channel::lit && unsupportedReason(settings_, debugMode(mode)).empty() &&
                 !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
                 request.modes.push_back(mode);
         request.every_sample = options_.every_sample;
@@ -304,7 +304,7 @@ Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
     timed.progress = options.progress.part(0, timing);
     drawing.progress = options.progress.part(timing, 1);
     const std::vector<TimedFrame> times = time(std::span(&settings, 1), timed);
-    Frame frame = FrameMaker(state_->device, state_->shared, state_->views, settings, drawing).make();
+    Frame frame = FrameBuilder(state_->device, state_->shared, state_->views, settings, drawing).make();
     addTimes(times.front(), frame);
     return frame;
 }
@@ -328,7 +328,7 @@ Frame Renderer::surfacesFor(const Settings& settings, const RenderOptions& optio
     capture.recheck = options.recheck;
     capture.runs = 0;
     capture.on_step = options.on_step;
-    return FrameMaker(state_->device, state_->shared, state_->views, settings, capture).make();
+    return FrameBuilder(state_->device, state_->shared, state_->views, settings, capture).make();
 }
 
 reference::PixelLight Renderer::referencePixel(const Settings& settings, int x, int y) {

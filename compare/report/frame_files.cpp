@@ -23,9 +23,9 @@ void writeImage(const std::filesystem::path& file, const Frame& frame, const Deb
     if (!frame.channels.contains(selected.channel))
         throw std::runtime_error(
             fmt::format("--debug {}: the {} path does not have this channel{}", selected.name, frame.name,
-                        selected.maker == MadeBy::forward_only    ? "; forward_plus has it"
-                        : selected.maker == MadeBy::deferred_only ? "; deferred has it, with MSAA"
-                                                                  : ""));
+                        selected.supported_by == SupportedBy::forward_only    ? "; forward_plus has it"
+                        : selected.supported_by == SupportedBy::deferred_only ? "; deferred has it, with MSAA"
+                                                                              : ""));
     const Exposure exposure = exposureFor(choice, findChannel(frame, Channel::lit), coverage(frame, frame));
     const Frame* frames[] = {&frame};
     const ImageScale scale = scaleFor(selected, exposure, frames);

@@ -34,7 +34,7 @@ std::vector<DebugMode> modesOf(const ImageDiff& diff) {
                        .error_kind = pair.error_kind,
                        .kind = pair.kind,
                        .domain = Domain::any,
-                       .maker = MadeBy::both,
+                       .supported_by = SupportedBy::both,
                        .shows = ours ? known->shows : std::string_view(pair.reference_type)};
         const bool color = pair.kind == ChannelKind::color && mode.width == 3;
         if (channel->display && color)

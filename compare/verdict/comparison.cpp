@@ -7,7 +7,7 @@
 #include "compare/verdict/surface_grid.h"
 #include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>
@@ -221,8 +221,8 @@ void addUnmatched(const DebugMode& mode, const Frame& having, const Frame& lacki
                   const ChannelDemands& demands, Comparison& comparison) {
     const Rule* rule = ruleFor(demands.rules, mode.name);
     const Path path = lacking.settings.path;
-    const bool forward_only = mode.maker == MadeBy::forward_only && hasGBuffer(path),
-               deferred_only = mode.maker == MadeBy::deferred_only && shadesFragments(path);
+    const bool forward_only = mode.supported_by == SupportedBy::forward_only && hasGBuffer(path),
+               deferred_only = mode.supported_by == SupportedBy::deferred_only && shadesFragments(path);
     if ((!forward_only && !deferred_only) || (rule && namesChannels(*rule)))
         return evaluateOneSided(std::string(mode.name), having.name, demands, comparison.failures,
                                 comparison.notes);
@@ -256,7 +256,7 @@ std::vector<std::string> pairChannels(const FramePair& pair, const CompareOption
         if (!onLeft && !onRight) continue;
         names.emplace_back(mode.name);
         if (lit_alone && mode.channel != Channel::lit) continue;
-        const bool paths = !isMadeByReference(mode);
+        const bool paths = !isSupportedByReference(mode);
         if (onLeft && onRight) {
             if (paths && left.settings.assign != right.settings.assign)
                 comparison.notes.push_back(

@@ -38,7 +38,7 @@ bool isGeometry(const DebugMode& mode) {
 
 // Channels of a surface's material; where they differ, its light may.
 bool isSurface(const DebugMode& mode) {
-    return mode.maker == MadeBy::both && !isLit(mode.channel) && !isGeometry(mode);
+    return mode.supported_by == SupportedBy::both && !isLit(mode.channel) && !isGeometry(mode);
 }
 
 // Largest change of the value within `radius` pixels of pixel `i`.

@@ -155,7 +155,7 @@ std::string_view equalBecause(const DebugMode& mode) {
         case ChannelStage::id:
             return "the index is stored exactly";
         case ChannelStage::list:
-            return mode.maker == MadeBy::deferred_only
+            return mode.supported_by == SupportedBy::deferred_only
                        ? "the same samples of one G-buffer are shaded"
                        : "both paths use one list, chosen by the same function of pixel and depth";
         case ChannelStage::position:

@@ -6,14 +6,14 @@
 
 #include "types.h"
 
-// number  name  width  error   kind  domain  made by  shows
+// number  name  width  error   kind  domain  supported_by  shows
 //     stage  step  code  standard  compact  part  texels  related
 //   width   components; kind names them in an EXR: color .R.G.B, vector .X.Y.Z, scalar .Y, id .Y
 //   error   relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
 //           axial     the same between lines: b and -b are equal, so at most 90 degrees
 //   domain  unit: vectors of length 1   unit_or_zero: these, or 0   share: 0 to 1   positive: 0 or more   any
-//   made by which renderers produce it:
+//   supported_by  which renderers produce it:
 //           both           both paths and the reference
 //           forward_only   forward+ and the reference: the G-buffer does not store it
 //           deferred_only  deferred alone: it describes samples of the G-buffer
@@ -288,8 +288,8 @@ CONTRACT_CONST(uint, FIRST_LIT_IMAGE, 19);
 // Set in FEATURE_captures if shadow_visibility is the only channel of lit images: no light is evaluated.
 CONTRACT_CONST(uint, CAPTURES_UNLIT, 0x80000000u);
 
-#define DIPTYCH_DEBUG_NUMBER(number, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
-                             standard, compact, part, texels, related)                                      \
+#define DIPTYCH_DEBUG_NUMBER(number, name, width, errorKind, kind, domain, supported_by, shows, stage, step, \
+                             code, standard, compact, part, texels, related)                                 \
     CONTRACT_CONST(uint, DEBUG_##name, number);
 DEBUG_MODES(DIPTYCH_DEBUG_NUMBER)
 #undef DIPTYCH_DEBUG_NUMBER

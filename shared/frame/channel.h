@@ -9,8 +9,8 @@
 namespace diptych {
 
 // One enumerator for each row of DEBUG_MODES, by its name. Its value is the channel's number.
-#define DIPTYCH_DEBUG_CHANNEL(index, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
-                              standard, compact, part, texels, related)                                     \
+#define DIPTYCH_DEBUG_CHANNEL(index, name, width, errorKind, kind, domain, supported_by, shows, stage, step, \
+                              code, standard, compact, part, texels, related)                                \
     name = index,
 enum class Channel : int { DEBUG_MODES(DIPTYCH_DEBUG_CHANNEL) };
 #undef DIPTYCH_DEBUG_CHANNEL

@@ -15,19 +15,19 @@ namespace diptych {
 std::span<const DebugMode> debugModes() {
     using namespace gpu;  // the bits of G-buffers
     static constexpr DebugMode modes[] = {
-#define DIPTYCH_DEBUG_ROW(index, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
-                          standard, compact, part, texels, related)                                     \
-    {Channel::name,                                                                                     \
-     #name,                                                                                             \
-     width,                                                                                             \
-     ErrorKind::errorKind,                                                                              \
-     ChannelKind::kind,                                                                                 \
-     Domain::domain,                                                                                    \
-     MadeBy::maker,                                                                                     \
-     shows,                                                                                             \
-     step,                                                                                              \
-     {FieldCode::code, standard, compact},                                                              \
-     TexelUse::texels,                                                                                  \
+#define DIPTYCH_DEBUG_ROW(index, name, width, errorKind, kind, domain, supported_by, shows, stage, step, \
+                          code, standard, compact, part, texels, related)                                \
+    {Channel::name,                                                                                      \
+     #name,                                                                                              \
+     width,                                                                                              \
+     ErrorKind::errorKind,                                                                               \
+     ChannelKind::kind,                                                                                  \
+     Domain::domain,                                                                                     \
+     SupportedBy::supported_by,                                                                          \
+     shows,                                                                                              \
+     step,                                                                                               \
+     {FieldCode::code, standard, compact},                                                               \
+     TexelUse::texels,                                                                                   \
      related},
         DEBUG_MODES(DIPTYCH_DEBUG_ROW)
 #undef DIPTYCH_DEBUG_ROW

@@ -22,7 +22,7 @@ constexpr bool isAngle(ErrorKind errorKind) {  // in degrees
 enum class ChannelKind { color, vector, scalar, id };
 // Valid range of the values: unit vectors, these or 0, 0 to 1, 0 or more, or any.
 enum class Domain { unit, unit_or_zero, ratio, positive, any };
-enum class MadeBy { both, forward_only, deferred_only, paths_only };
+enum class SupportedBy { both, forward_only, deferred_only, paths_only };
 // Columns of DEBUG_MODES, which explains their values.
 enum class ChannelStage { id, position, facet, surface, list, map, visibility, light, unshadowed, haze };
 enum class FieldCode { exact, unorm, root, octahedral, line, radiance, index, half };
@@ -57,7 +57,7 @@ struct DebugMode {
     ErrorKind error_kind;
     ChannelKind kind;
     Domain domain;
-    MadeBy maker;
+    SupportedBy supported_by;
     std::string_view shows;
     int step = 0;  // ascends in the order of computation
     ChannelCode stored{};
@@ -72,9 +72,9 @@ const DebugMode& debugMode(Channel channel);                   // throws std::ou
 std::string_view nameOf(ErrorKind errorKind);
 
 // The stage that makes a channel, and the part of a material without which it is not stored.
-#define DIPTYCH_DEBUG_PROPERTY(number, name, width, errorKind, kind, domain, maker, shows, stage, step, \
-                               code, standard, compact, part, texels, related)                          \
-    case Channel::name:                                                                                 \
+#define DIPTYCH_DEBUG_PROPERTY(number, name, width, errorKind, kind, domain, supported_by, shows, stage, \
+                               step, code, standard, compact, part, texels, related)                     \
+    case Channel::name:                                                                                  \
         return {ChannelStage::stage, MaterialPart::part};
 struct ChannelSource {
     ChannelStage stage = ChannelStage::surface;
@@ -103,8 +103,8 @@ constexpr bool isShaded(Channel mode) {
 }
 
 // Every channel, and those for which isLit(), in ascending order of index.
-#define DIPTYCH_DEBUG_LISTED(number, name, width, errorKind, kind, domain, maker, shows, stage, step, code, \
-                             standard, compact, part, texels, related)                                      \
+#define DIPTYCH_DEBUG_LISTED(number, name, width, errorKind, kind, domain, supported_by, shows, stage, step, \
+                             code, standard, compact, part, texels, related)                                 \
     Channel::name,
 inline constexpr std::array allChannels{DEBUG_MODES(DIPTYCH_DEBUG_LISTED)};
 #undef DIPTYCH_DEBUG_LISTED

@@ -2,7 +2,7 @@
 // Clear coats, anisotropy, sheens and thin films (builtin:layers) in both paths: bit for bit with a float32
 // G-buffer under every kind of light, within their bits when packed, and as the reference integrates them. A
 // material whose factors are 0 is the base to the bit.
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "shared/material/gbuffer_layout.h"
 #include "tests/bench/environment_errors.h"
 #include "tests/image/square.h"
@@ -332,7 +332,8 @@ TEST_P(EachLayer, ATexelOfZeroIsTheBaseToTheBit) {
         }
     for (const Frame& frame : with)
         for (const Channel mode : GetParam().channels())
-            EXPECT_EQ(frame.channels.contains(mode), notMadeBecause(frame.settings, debugMode(mode)).empty())
+            EXPECT_EQ(frame.channels.contains(mode),
+                      unsupportedReason(frame.settings, debugMode(mode)).empty())
                 << frame.name << " " << debugMode(mode).name;
 }
 

@@ -2,7 +2,7 @@
 // Both paths against the reference, the reference's two modes against each other, and negative controls
 // with faults on either side.
 #include "compare/verdict/pair_reports.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "shared/scene/load.h"
 #include "shared/scene/requirements.h"
 #include "tests/image/scenes.h"
@@ -126,7 +126,7 @@ TEST_P(BuiltinReference, EveryChannelInBothModes) {
                 traced = reference(renderer, settings, ReferenceMode::scene);
     for (const Frame* frame : {&surface, &traced})
         for (const DebugMode& mode : debugModes()) {
-            const bool there = isMadeByReference(mode) && mayShow(mode.channel, layers);
+            const bool there = isSupportedByReference(mode) && mayShow(mode.channel, layers);
             ASSERT_EQ(frame->channels.contains(mode.channel), there) << mode.name;
             if (!there) continue;
             EXPECT_EQ(frame->channels.at(mode.channel).components, mode.width) << mode.name;

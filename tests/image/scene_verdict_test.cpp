@@ -42,7 +42,7 @@ std::set<std::string> failuresAgainst(const Frame& reference, const std::vector<
     std::set<std::string> failures;
     for (const std::size_t i : {0u, 1u})
         for (const ChannelDiff& channel : report.comparisons.at(i).channels) {
-            if (channel.mode->maker == MadeBy::both) {
+            if (channel.mode->supported_by == SupportedBy::both) {
                 EXPECT_TRUE(channel.footprints.has_value()) << channel.mode->name;
             }
             if (channel.verdict == Verdict::fail)

@@ -295,7 +295,7 @@ TEST(VerdictNegativeControls, CoverEverySharedChannel) {
         const bool controlled =
             std::any_of(std::begin(negativeControls), std::end(negativeControls),
                         [&](const NegativeControl& control) { return control.channel == mode.name; });
-        EXPECT_EQ(controlled, mode.maker == MadeBy::both) << mode.name;
+        EXPECT_EQ(controlled, mode.supported_by == SupportedBy::both) << mode.name;
     }
 }
 

@@ -39,8 +39,8 @@ std::vector<Stored> storedChannels() {
         for (std::string* name : {&standard, &compact}) name->resize(name->size() - std::size("_BITS") + 1);
         all.push_back({&debugMode(channel), standard, compact});
     };
-#define ADD(number, name, width, errorKind, kind, domain, maker, shows, stage, step, code, standard, \
-            compact, part, texels, related)                                                          \
+#define ADD(number, name, width, errorKind, kind, domain, supported_by, shows, stage, step, code, standard, \
+            compact, part, texels, related)                                                                 \
     add(Channel::name, #standard, #compact);
     DEBUG_MODES(ADD)
 #undef ADD

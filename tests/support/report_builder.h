@@ -5,7 +5,7 @@
 #include "compare/report/report.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 
 #include <algorithm>
 #include <limits>
@@ -51,7 +51,7 @@ inline std::string markupFault(const std::string& text, const std::set<std::stri
 // Number of channels that a single-sampled frame has in either path.
 inline std::size_t channelsOfOneSample() {
     return static_cast<std::size_t>(std::ranges::count_if(
-        debugModes(), [](const DebugMode& mode) { return mode.maker != MadeBy::deferred_only; }));
+        debugModes(), [](const DebugMode& mode) { return mode.supported_by != SupportedBy::deferred_only; }));
 }
 
 // Both paths of a small scene with all channels: one surface pixel, the others background.
@@ -68,7 +68,7 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
         frame.time = {2, 1, 3, 5};
         frame.passes = {{"shade", 1.5}};
         for (const DebugMode& mode : debugModes()) {
-            if (!notMadeBecause(frame.settings, mode).empty()) continue;
+            if (!unsupportedReason(frame.settings, mode).empty()) continue;
             Image& image = frame.channels[mode.channel] = Image(4, 3, mode.width);
             if (mode.kind == ChannelKind::id) std::ranges::fill(image.data, -1.0f);
             for (int c = 0; c < mode.width; ++c) image.at(1, 2, c) = mode.kind == ChannelKind::id ? 3 : 0.5f;

@@ -64,7 +64,7 @@ TEST(PageReport, ARealReportIsWholeAndSilent) {
     EXPECT_GT(seen.told["images"], 60);
     EXPECT_EQ(seen.told["broken"], nlohmann::json::array());
     EXPECT_EQ(seen.told["cards"], 2 * std::ranges::count_if(debugModes(), [](const DebugMode& mode) {
-                                      return mode.maker != MadeBy::deferred_only &&
+                                      return mode.supported_by != SupportedBy::deferred_only &&
                                              layerOf(mode.channel) == 0;
                                   }));
     EXPECT_EQ(seen.told["unread"], nlohmann::json::array());

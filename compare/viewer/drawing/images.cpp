@@ -4,7 +4,7 @@
 #include "compare/metrics/channel.h"
 #include "compare/verdict/measurement.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ Panel panelOf(const Frame& frame, const DebugMode& mode, const ImageScale& scale
         panel.values = *image;
         return panel;
     }
-    panel.missing = notMadeBecause(frame.settings, mode);
+    panel.missing = unsupportedReason(frame.settings, mode);
     if (panel.missing.empty() || !frame.origin.file.empty())
         panel.missing = fmt::format("{} has no channel {}", panel.name, mode.name);
     return panel;

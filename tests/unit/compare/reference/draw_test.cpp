@@ -5,7 +5,7 @@
 #include "compare/reference/checkpoint.h"
 #include "compare/reference/time_estimate.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "tests/support/files.h"
 #include "tests/support/light_kinds.h"
 
@@ -38,8 +38,8 @@ TEST_P(ReferenceDrawOf, ALightInEveryChannel) {
     scene.lights[0].intensity = 3;
     const Drawn d = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 3, 3, 0.01));
     for (const DebugMode& mode : debugModes()) {
-        ASSERT_EQ(d.image.channels.contains(mode.channel), isMadeByReference(mode)) << mode.name;
-        if (!isMadeByReference(mode)) continue;
+        ASSERT_EQ(d.image.channels.contains(mode.channel), isSupportedByReference(mode)) << mode.name;
+        if (!isSupportedByReference(mode)) continue;
         const Image& image = d.image.channels.at(mode.channel);
         EXPECT_EQ(image.components, mode.width) << mode.name;
         for (const float v : image.data) EXPECT_TRUE(std::isfinite(v)) << mode.name;
@@ -80,7 +80,7 @@ TEST(ReferenceDraw, Channels) {
         EXPECT_EQ(value(mode), 0) << "there is no normal map";
     const Drawn empty = drawn(scene, viewFrom({0, 0, 3}, {0, 0, 9}, 1, 1, 0.01));
     for (const DebugMode& mode : debugModes()) {
-        if (!isMadeByReference(mode)) continue;
+        if (!isSupportedByReference(mode)) continue;
         EXPECT_EQ(empty.image.channels.at(mode.channel).data[0], mode.name == "material_id" ? -1 : 0)
             << mode.name;
     }

@@ -62,7 +62,7 @@ TEST(Report, LeavesWhatTheContractNames) {
     for (const ImageLayer& layer : layers) channels.insert(layer.channels.begin(), layer.channels.end());
     for (const DebugMode& mode : debugModes())
         for (const std::string& name : exrChannels(mode))
-            EXPECT_EQ(channels.contains(name), mode.maker != MadeBy::deferred_only) << name;
+            EXPECT_EQ(channels.contains(name), mode.supported_by != SupportedBy::deferred_only) << name;
 }
 
 TEST(Report, JsonHasTheFixedKeys) {
@@ -128,7 +128,7 @@ TEST(Report, JunitHasOneCasePerChannelAndIsWellFormed) {
     EXPECT_EQ(count("<testcase "), channelsOfOneSample());
     EXPECT_EQ(count("<failure "), 2u);
     EXPECT_EQ(count("<skipped "), static_cast<std::size_t>(std::ranges::count(
-                                      debugModes(), MadeBy::forward_only, &DebugMode::maker)));
+                                      debugModes(), SupportedBy::forward_only, &DebugMode::supported_by)));
     EXPECT_NE(junit.find("failures=\"2\""), std::string::npos);
 }
 
@@ -339,12 +339,12 @@ TEST(Report, TheTableSaysFailuresFirstAndTheVerdictLast) {
     EXPECT_LT(table.find("roughness"), table.find("lit "));
     EXPECT_TRUE(table.ends_with("FAIL: albedo, roughness beyond tolerance\n")) << table;
     const auto both = std::ranges::count_if(debugModes(), [](const DebugMode& mode) {
-        return mode.maker == MadeBy::both || mode.maker == MadeBy::paths_only;
+        return mode.supported_by == SupportedBy::both || mode.supported_by == SupportedBy::paths_only;
     });
-    EXPECT_TRUE(reportTable(passing()).ends_with(
-        fmt::format("pass: all {} compared channels are within tolerance ({} more exist on one "
-                    "side only)\n",
-                    both, std::ranges::count(debugModes(), MadeBy::forward_only, &DebugMode::maker))));
+    EXPECT_TRUE(reportTable(passing()).ends_with(fmt::format(
+        "pass: all {} compared channels are within tolerance ({} more exist on one "
+        "side only)\n",
+        both, std::ranges::count(debugModes(), SupportedBy::forward_only, &DebugMode::supported_by))));
 }
 
 TEST(Report, NotesOfTheSceneAreSaidOnce) {

@@ -156,11 +156,11 @@ TEST(VerdictLine, SaysThatImagesShowNothing) {
         {empty, ", but both images are empty: no surface is in view"},
         {dark, ", but both images are black: no light reaches a visible surface"}};
     const auto shared = std::ranges::count_if(debugModes(), [](const DebugMode& mode) {
-        return mode.maker == MadeBy::both || mode.maker == MadeBy::paths_only;
+        return mode.supported_by == SupportedBy::both || mode.supported_by == SupportedBy::paths_only;
     });
-    const std::string passes =
-        fmt::format("pass: all {} compared channels are within tolerance ({} more exist on one side only)",
-                    shared, std::ranges::count(debugModes(), MadeBy::forward_only, &DebugMode::maker));
+    const std::string passes = fmt::format(
+        "pass: all {} compared channels are within tolerance ({} more exist on one side only)", shared,
+        std::ranges::count(debugModes(), SupportedBy::forward_only, &DebugMode::supported_by));
     for (const auto& [frames, words] : cases) {
         EXPECT_EQ(verdictLine(reportWith(frames, {})), passes + words);
         options.allow_empty = true;

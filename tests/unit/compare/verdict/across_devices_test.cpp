@@ -40,7 +40,7 @@ protected:
         report_.frames[1].name = "there";
         report_.device = {"a", "driver", "cpu"};
         for (const DebugMode& mode : debugModes())
-            if (mode.maker != MadeBy::deferred_only)
+            if (mode.supported_by != SupportedBy::deferred_only)
                 for (Frame& frame : report_.frames)
                     frame.channels[mode.channel] = Image(across_side, across_side, mode.width, 0.5f);
         for (int y = 0; y < across_side; ++y)

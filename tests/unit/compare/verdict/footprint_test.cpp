@@ -4,7 +4,7 @@
 #include "compare/verdict/footprint.h"
 #include "compare/metrics/flip.h"
 #include "compare/verdict/comparison.h"
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ std::vector<Frame> evenFrames() {
         frame.settings.reference_mode =
             path == Path::reference ? ReferenceMode::scene : ReferenceMode::surface;
         for (const DebugMode& mode : debugModes()) {
-            if (!isMadeByReference(mode)) continue;
+            if (!isSupportedByReference(mode)) continue;
             Image& image = frame.channels[mode.channel] =
                 Image(side, side, mode.width, mode.kind == ChannelKind::id ? 3.0f : 0.5f);
             if (isAngle(mode.error_kind))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // MSAA paths against the reference: only lit has the same meaning in both.
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ std::vector<Frame> sampledFrames(int samples) {
     reference.settings.spp = 64;
     reference.through_gbuffer.clear();
     std::erase_if(reference.channels,
-                  [](const auto& channel) { return !isMadeByReference(debugMode(channel.first)); });
+                  [](const auto& channel) { return !isSupportedByReference(debugMode(channel.first)); });
     for (Frame& frame : frames) {
         frame.settings.msaa = samples;
         for (auto& [mode, image] : frame.channels) {

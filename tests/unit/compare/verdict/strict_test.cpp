@@ -28,7 +28,7 @@ std::vector<Frame> fewChannels() {
     for (Frame& frame : frames)
         std::erase_if(frame.channels, [](const auto& channel) {
             const DebugMode& mode = debugMode(channel.first);
-            return mode.maker == MadeBy::both && mode.name != "lit" && mode.name != "albedo" &&
+            return mode.supported_by == SupportedBy::both && mode.name != "lit" && mode.name != "albedo" &&
                    mode.name != "metallic" && mode.name != "material_id";
         });
     return frames;
@@ -111,11 +111,11 @@ TEST(Strict, WhatOurReferenceCannotHaveIsNoFailure) {
         baseline.settings.path = Path::reference;
         baseline.origin = {"b.exr", ours ? "a CPU" : "", "", ""};
         for (const DebugMode& mode : debugModes())
-            if (mode.maker == MadeBy::paths_only) baseline.channels.erase(mode.channel);
+            if (mode.supported_by == SupportedBy::paths_only) baseline.channels.erase(mode.channel);
         const Report report = makeReport({{fewChannels()}}, strictDevice, strictly(true), baseline);
         Lines said, pathsOnly;
         for (const DebugMode& mode : debugModes())
-            if (mode.maker == MadeBy::paths_only) pathsOnly.emplace_back(mode.name);
+            if (mode.supported_by == SupportedBy::paths_only) pathsOnly.emplace_back(mode.name);
         EXPECT_GT(pathsOnly.size(), 1u);
         for (const DebugMode& mode : debugModes()) {
             const std::string line =

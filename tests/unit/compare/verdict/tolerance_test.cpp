@@ -35,9 +35,9 @@ struct Pair {
         for (const DebugMode& mode : debugModes()) {
             forward.channels[mode.channel] = Image(1, 1, mode.width, 0.5f);
             if (isAngle(mode.error_kind)) forward.channels[mode.channel].data = {0.6f, 0, 0.8f};
-            if (mode.maker != MadeBy::forward_only)
+            if (mode.supported_by != SupportedBy::forward_only)
                 deferred.channels[mode.channel] = forward.channels[mode.channel];
-            if (mode.maker == MadeBy::deferred_only) forward.channels.erase(mode.channel);
+            if (mode.supported_by == SupportedBy::deferred_only) forward.channels.erase(mode.channel);
         }
     }
     Pair& encoding(GBufferEncoding e) {
@@ -267,7 +267,7 @@ TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
     Pair p;
     p.encoding(GBufferEncoding::full).needs.emission = true;
     for (const DebugMode& mode : debugModes()) {
-        if (mode.maker == MadeBy::forward_only) continue;
+        if (mode.supported_by == SupportedBy::forward_only) continue;
         p.cpu = true;
         EXPECT_EQ(derivedTolerance(mode, p.pair()).max, 0) << mode.name;
         p.cpu = false;
@@ -302,7 +302,7 @@ TEST(Tolerance, EveryChannelSaysWhy) {
         for (const GBufferEncoding e :
              {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full})
             for (const DebugMode& mode : debugModes()) {
-                if (mode.maker == MadeBy::forward_only) continue;
+                if (mode.supported_by == SupportedBy::forward_only) continue;
                 Pair p;
                 p.cpu = cpu;
                 p.encoding(e);
@@ -376,7 +376,8 @@ TEST(Diff, EqualFramesPassAndForwardOnlyNeverCounts) {
 
 TEST(Diff, EveryChannelCanFail) {
     for (const DebugMode& mode : debugModes()) {
-        if (mode.maker == MadeBy::forward_only || mode.maker == MadeBy::deferred_only) continue;
+        if (mode.supported_by == SupportedBy::forward_only || mode.supported_by == SupportedBy::deferred_only)
+            continue;
         Pair p;
         float& value = p.forward.channels[mode.channel].data[0];
         value = mode.error_kind == ErrorKind::exact ? value + 1 : -value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Channels that a path supports, and the messages for others.
-#include "shared/frame/made_channels.h"
+#include "shared/frame/supported_channels.h"
 #include "shared/contract/debug_mode.h"
 
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 namespace diptych {
 namespace {
 
-TEST(MadeChannels, WhoMakesOneIsNamedWhereAnotherIsAsked) {
+TEST(SupportedChannels, WhoMakesOneIsNamedWhereAnotherIsAsked) {
     const auto why = [](Path path, Channel mode, int samples = 1) {
         Settings settings;
         settings.path = path;
         settings.msaa = samples;
-        return std::string(notMadeBecause(settings, debugMode(mode)));
+        return std::string(unsupportedReason(settings, debugMode(mode)));
     };
     for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
         EXPECT_EQ(why(path, Channel::albedo), "");
@@ -29,11 +29,11 @@ TEST(MadeChannels, WhoMakesOneIsNamedWhereAnotherIsAsked) {
     EXPECT_EQ(why(Path::deferred, Channel::shaded_samples, 4), "");
 }
 
-TEST(MadeChannels, TheReferenceMakesWhatIsAboutTheScene) {
+TEST(SupportedChannels, TheReferenceMakesWhatIsAboutTheScene) {
     for (const auto& [mode, made] :
          {std::pair{Channel::lit, true}, std::pair{Channel::tangent, true},
           std::pair{Channel::shaded_samples, false}, std::pair{Channel::cascade, false}})
-        EXPECT_EQ(isMadeByReference(debugMode(mode)), made) << debugMode(mode).name;
+        EXPECT_EQ(isSupportedByReference(debugMode(mode)), made) << debugMode(mode).name;
 }
 
 }  // namespace

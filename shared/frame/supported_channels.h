@@ -10,10 +10,10 @@
 namespace diptych {
 
 // Whether the reference supports the channel: it describes the scene, not how a path works.
-bool isMadeByReference(const DebugMode& mode);
+bool isSupportedByReference(const DebugMode& mode);
 
 // Why a Frame of these Settings does not support the channel, and what does; text for a message, else
 // empty.
-std::string_view notMadeBecause(const Settings& settings, const DebugMode& mode);
+std::string_view unsupportedReason(const Settings& settings, const DebugMode& mode);
 
 }  // namespace diptych
