@@ -160,19 +160,19 @@ int runView(const ViewLine& requested) {
     // Pixel coordinates and images beside the view refer to the size that compare renders.
     view.size_requested =
         options.size_requested || options.pixel || options.selection.any() || !options.baseline_file.empty();
-    view.look.mode = options.shown;
-    if (isReport) view.look.difference = viewer::Difference::absolute;
-    if (isReference(options.baseline)) view.look.against = viewer::Against::reference;
+    view.view_options.mode = options.shown;
+    if (isReport) view.view_options.difference = viewer::Difference::absolute;
+    if (isReference(options.baseline)) view.view_options.against = viewer::Against::reference;
     if (!options.baseline_file.empty()) {
-        view.look.against = viewer::Against::file;
-        view.look.file = options.baseline_file;
+        view.view_options.against = viewer::Against::file;
+        view.view_options.file = options.baseline_file;
         if (!std::filesystem::exists(imageName(options.baseline_file).file))
             refuse("--baseline {}: no such file", options.baseline_file.string());
     }
     const ImageChoice image = imageChoice(options);
-    view.look.exposure = image.exposure;
-    view.look.ev100 = image.ev100;
-    view.look.tonemap = image.tonemap;
+    view.view_options.exposure = image.exposure;
+    view.view_options.ev100 = image.ev100;
+    view.view_options.tonemap = image.tonemap;
     if (options.pixel) view.pixel = viewer::PixelPosition{options.pixel->x, options.pixel->y};
     if (view.pixel && (view.pixel->x >= view.subject.settings.size.width ||
                        view.pixel->y >= view.subject.settings.size.height))

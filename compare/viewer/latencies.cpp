@@ -18,22 +18,22 @@ double secondsFrom(Latencies::Clock::time_point from, Latencies::Clock::time_poi
 }  // namespace
 
 bool isWhole(const DrawnView& shown) {
-    return shown.size == shown.order.subject.settings.size;
+    return shown.size == shown.request.subject.settings.size;
 }
 
 Latencies::Latencies(std::function<void(const std::string&)> say, Clock::time_point begun)
     : say_(std::move(say)), begun_(begun) {}
 
-void Latencies::pressed(std::string_view key, std::uint64_t order) {
-    waiting_.push_back({std::string(key), Clock::now(), 0, order});
+void Latencies::pressed(std::string_view key, std::uint64_t request) {
+    waiting_.push_back({std::string(key), Clock::now(), 0, request});
 }
 
-void Latencies::asked(std::uint64_t order) {
+void Latencies::asked(std::uint64_t request) {
     for (Waiting& waiting : waiting_)
-        if (waiting.order == 0) waiting.order = order;
+        if (waiting.request == 0) waiting.request = request;
 }
 
-void Latencies::seen(const DrawnView& shown, std::uint64_t order) {
+void Latencies::seen(const DrawnView& shown, std::uint64_t request) {
     const Clock::time_point now = Clock::now();
     const auto sayImage = [&](bool& said, std::string_view what) {
         if (std::exchange(said, true)) return;
@@ -43,7 +43,8 @@ void Latencies::seen(const DrawnView& shown, std::uint64_t order) {
     sayImage(said_first_, "first picture");
     if (isWhole(shown)) sayImage(said_whole_, "first whole picture");
     std::erase_if(waiting_, [&](const Waiting& waiting) {
-        if (waiting.order == 0 ? order != waiting.before : shown.order.id < waiting.order) return false;
+        if (waiting.request == 0 ? request != waiting.before : shown.request.id < waiting.request)
+            return false;
         say_(fmt::format("key {}: seen after {:.0f} ms, {}x{}", waiting.key,
                          1000 * secondsFrom(waiting.pressed, now), shown.size.width, shown.size.height));
         return true;

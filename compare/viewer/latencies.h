@@ -24,12 +24,12 @@ public:
     // `say` receives each timing as a line; times of the first images count from `begun`.
     Latencies(std::function<void(const std::string&)> say, Clock::time_point begun);
 
-    // A key was pressed; `order` is the latest request, 0: none.
-    void pressed(std::string_view key, std::uint64_t order);
+    // A key was pressed; `request` is the latest request, 0: none.
+    void pressed(std::string_view key, std::uint64_t request);
     // Earlier key presses become visible with this request's image.
-    void asked(std::uint64_t order);
-    // The image is in the window; `order` is the latest request.
-    void seen(const DrawnView& shown, std::uint64_t order);
+    void asked(std::uint64_t request);
+    // The image is in the window; `request` is the latest request.
+    void seen(const DrawnView& shown, std::uint64_t request);
 
     // Duration of one frame of the interface.
     void frame(double ms);
@@ -41,7 +41,7 @@ private:
     struct Waiting {
         std::string key;
         Clock::time_point pressed;
-        std::uint64_t order = 0;  // request that shows it; 0: none yet
+        std::uint64_t request = 0;  // request that shows it; 0: none yet
         // Latest request at the press; a key without a request is visible at once.
         std::uint64_t before = 0;
     };

@@ -53,8 +53,8 @@ public:
           drawing_({options.device, options.compare, Window::wake}) {
         state_.subject = options.subject;
         if (isReference(state_.subject.settings.path)) state_.subject.settings.path = drawn_paths[1];
-        state_.look = options.look;
-        state_.stored = options.look.file;
+        state_.view_options = options.view_options;
+        state_.stored = options.view_options.file;
         // Without --baseline, which the interface chooses.
         const std::vector<std::string>& words = options.compare.words;
         for (std::size_t i = 0; i < words.size(); ++i)
@@ -147,8 +147,8 @@ private:
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
                           next.status.error != contents_.status.error || next.idle != contents_.idle;
         if (next.status.error != contents_.status.error && !next.status.error.empty()) say(next.status.error);
-        if (next.idle && order_.id != said_still_) {
-            said_still_ = order_.id;
+        if (next.idle && request_.id != said_still_) {
+            said_still_ = request_.id;
             say("still: all is drawn");
         }
         contents_ = std::move(next);
@@ -162,8 +162,8 @@ private:
         const DrawnView& shown = *contents_.shown;
         for (std::size_t i = 0; i < 2; ++i) histories_.at(isWhole(shown)).at(i).add(shown.paths[i]);
         const std::string& asked = state_.subject.settings.camera;
-        if (shown.order.subject.settings.camera == asked && asked != own_camera_ &&
-            shown.order.subject.scene == state_.subject.scene) {
+        if (shown.request.subject.settings.camera == asked && asked != own_camera_ &&
+            shown.request.subject.scene == state_.subject.scene) {
             camera_.take(shown.camera);
             own_camera_ = asked;
         }
@@ -181,12 +181,12 @@ private:
     void ask() {
         const CanvasRect canvas = canvasNow();
         if (state_.follow) {
-            const bool halves =
-                state_.canvas.layout == Layout::side_by_side && state_.look.difference == Difference::none;
+            const bool halves = state_.canvas.layout == Layout::side_by_side &&
+                                state_.view_options.difference == Difference::none;
             const Size size{std::max(1, halves ? (canvas.width - 2) / 2 : canvas.width),
                             std::max(1, canvas.height)};
             if (size != state_.subject.settings.size) {
-                if (order_.id != 0) moving_until_ = std::max(moving_until_, now_ + resizedAfter);
+                if (request_.id != 0) moving_until_ = std::max(moving_until_, now_ + resizedAfter);
                 change([&](Settings& s) { s.size = size; });
             }
         }
@@ -194,20 +194,21 @@ private:
                              state_.pixel->y >= state_.subject.settings.size.height))
             state_.pixel.reset();
         // Repeated changes, as from a slider, count as movement.
-        if (order_.subject != state_.subject) {
+        if (request_.subject != state_.subject) {
             if (now_ - changed_ < resizedAfter) moving_until_ = std::max(moving_until_, now_ + stillAfter);
             changed_ = now_;
         }
         const bool moving = now_ < moving_until_ || state_.playing || isHeldMoving();
-        if (order_.id != 0 && order_.subject == state_.subject && order_.look == state_.look &&
-            order_.moving == moving && order_.pixel == state_.pixel)
+        if (request_.id != 0 && request_.subject == state_.subject &&
+            request_.view_options == state_.view_options && request_.moving == moving &&
+            request_.pixel == state_.pixel)
             return;
-        order_.subject = state_.subject;
-        order_.look = state_.look;
-        order_.moving = moving;
-        order_.pixel = state_.pixel;
-        order_.id = drawing_.ask(order_);
-        latencies_.asked(order_.id);
+        request_.subject = state_.subject;
+        request_.view_options = state_.view_options;
+        request_.moving = moving;
+        request_.pixel = state_.pixel;
+        request_.id = drawing_.ask(request_);
+        latencies_.asked(request_.id);
     }
 
     std::vector<std::filesystem::path> otherFiles() const {
@@ -295,8 +296,8 @@ private:
             if (ending == ".gltf" || ending == ".glb") {
                 openScene(file.string());
             } else if (ending == ".exr" && isOurImage(file)) {
-                state_.stored = state_.look.file = file;
-                state_.look.against = Against::file;
+                state_.stored = state_.view_options.file = file;
+                state_.view_options.against = Against::file;
                 tell("left: " + file.string());
             } else if (ending == ".hdr" || ending == ".exr") {
                 change([&](Settings& s) { s.env = file.string(); });
@@ -311,7 +312,7 @@ private:
     void press(const KeyDown& key, bool typing) {
         const std::optional<KeyPress> found = actionOf(key.key, key.control);
         if (!found || (typing && found->action != Action::quit && found->action != Action::leave)) return;
-        latencies_.pressed(nameOfKey(found->action), order_.id);
+        latencies_.pressed(nameOfKey(found->action), request_.id);
         act(*found, key.shift);
     }
 
@@ -400,9 +401,9 @@ private:
             return tell("no verdict for this view yet");
         for (const Comparison& comparison : contents_.evaluated->report.comparisons)
             for (const ChannelDiff& channel : comparison.channels)
-                if (channel.mode->channel == state_.look.channel() && channel.stats.worst_x >= 0)
+                if (channel.mode->channel == state_.view_options.channel() && channel.stats.worst_x >= 0)
                     return flyTo({channel.stats.worst_x, channel.stats.worst_y});
-        tell(fmt::format("no pixel of {} differs", debugMode(state_.look.channel()).name));
+        tell(fmt::format("no pixel of {} differs", debugMode(state_.view_options.channel()).name));
     }
 
     // ---- moving ---------------------------------------------------------------------------------------
@@ -418,8 +419,8 @@ private:
             held_ = false;
             return;
         }
-        const double seconds = std::min(now_ - last_, 0.1),
-                     by = state_.speed * camera_.reach() * std::min(seconds, held_ ? 1.0 : movingPause);
+        const double seconds = std::min(now_ - last_, 0.1), by = state_.speed * camera_.targetDistance() *
+                                                                 std::min(seconds, held_ ? 1.0 : movingPause);
         held_ = true;
         const auto axis = [&](Action plus, Action minus) {
             return (isHeld(plus) ? by : 0) - (isHeld(minus) ? by : 0);
@@ -458,8 +459,8 @@ private:
         screen_.draw(state_, contents_, canvas, panelRectsOf(canvas, state_));
         window_.setTitle(fmt::format("Diptych - {} - {}",
                                      contents_.properties ? contents_.properties->name : state_.subject.scene,
-                                     debugMode(state_.look.channel()).name));
-        if (contents_.shown) latencies_.seen(*contents_.shown, order_.id);
+                                     debugMode(state_.view_options.channel()).name));
+        if (contents_.shown) latencies_.seen(*contents_.shown, request_.id);
     }
 
     const ViewerOptions& options_;
@@ -473,7 +474,7 @@ private:
     FlyCamera camera_;
     std::string own_camera_ = "none taken yet";  // --camera text of camera_
     SceneWatch watch_;
-    DrawRequest order_;                                           // the latest request
+    DrawRequest request_;                                         // the latest request
     std::uint64_t said_still_ = 0;                                // the last request reported as complete
     double now_ = 0, last_ = 0, moving_until_ = 0, watched_ = 0;  // s since begun_
     double changed_ = -1;                                         // time of the last change of the subject

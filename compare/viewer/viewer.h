@@ -16,7 +16,7 @@ namespace diptych::viewer {
 
 struct ViewerOptions {
     Subject subject;  // shown first
-    LookOptions look;
+    ViewOptions view_options;
     bool size_requested = false;         // false: images fill the window
     std::optional<PixelPosition> pixel;  // the pixel to break down and zoom to
     bool watch = false;                  // reload a scene when its files change

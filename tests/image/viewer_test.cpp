@@ -27,12 +27,12 @@ DrawingOptions validated() {
     return options;
 }
 
-DrawRequest orderOf(const std::string& scene, int width = 64, int height = 36) {
-    DrawRequest order;
-    order.subject.scene = scene;
-    order.subject.settings.size.width = width;
-    order.subject.settings.size.height = height;
-    return order;
+DrawRequest requestOf(const std::string& scene, int width = 64, int height = 36) {
+    DrawRequest request;
+    request.subject.scene = scene;
+    request.subject.settings.size.width = width;
+    request.subject.settings.size.height = height;
+    return request;
 }
 
 // Waits for it; only a thread that hangs exceeds the limit.
@@ -45,11 +45,11 @@ bool soon(const Condition& condition) {
 }
 
 // Sends a request and waits for its complete result.
-bool isDrawn(DrawingThread& drawing, const DrawRequest& order) {
-    const std::uint64_t id = drawing.ask(order);
+bool isDrawn(DrawingThread& drawing, const DrawRequest& request) {
+    const std::uint64_t id = drawing.ask(request);
     return soon([&] {
         const auto shown = drawing.shown();
-        return drawing.idle() && shown && shown->order.id == id;
+        return drawing.idle() && shown && shown->request.id == id;
     });
 }
 
@@ -63,14 +63,14 @@ Frame drawn(Device& device, const Scene& scene, const Settings& settings,
 
 TEST(DrawingThread, ItsPanelsAreTheImagesOfBothPaths) {
     DrawingThread drawing(validated());
-    DrawRequest order = orderOf("builtin:points");
-    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    DrawRequest request = requestOf("builtin:points");
+    ASSERT_TRUE(isDrawn(drawing, request)) << drawing.status().error;
     const auto shown = drawing.shown();
     const Scene scene = loadScene("builtin:points");
     Device device({});
     std::array<Frame, 2> frames;
     for (std::size_t i = 0; i < 2; ++i) {
-        Settings settings = order.subject.settings;
+        Settings settings = request.subject.settings;
         settings.path = drawn_paths.at(i);
         frames.at(i) = drawn(device, scene, settings, {Channel::lit, Channel::material_id});
     }
@@ -113,15 +113,15 @@ TEST(DrawingThread, ItsPanelsAreTheImagesOfBothPaths) {
 
 TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
     DrawingThread drawing(validated());
-    DrawRequest order = orderOf("builtin:points");
-    order.look.against = Against::reference;
-    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    DrawRequest request = requestOf("builtin:points");
+    request.view_options.against = Against::reference;
+    ASSERT_TRUE(isDrawn(drawing, request)) << drawing.status().error;
     ASSERT_TRUE(soon([&] { return drawing.shown()->reference_done >= 1 && drawing.idle(); }));
     const auto shown = drawing.shown();
     EXPECT_EQ(shown->panels[0].name, "reference");
     const Scene scene = loadScene("builtin:points");
     Device device({});
-    const Frame reference = drawn(device, scene, referenceSettings(order.subject.settings), {Channel::lit});
+    const Frame reference = drawn(device, scene, referenceSettings(request.subject.settings), {Channel::lit});
     EXPECT_EQ(shown->panels[0].values.data, reference.channels.at(Channel::lit).data);
     // Both paths are compared with it and with each other.
     ASSERT_TRUE(
@@ -131,16 +131,16 @@ TEST(DrawingThread, TheReferenceComesTileByTileToWhatTheOtherCommandsDraw) {
 
 TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
     DrawingThread drawing(validated());
-    DrawRequest order = orderOf("builtin:points");
-    order.pixel = PixelPosition{30, 20};
-    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    DrawRequest request = requestOf("builtin:points");
+    request.pixel = PixelPosition{30, 20};
+    ASSERT_TRUE(isDrawn(drawing, request)) << drawing.status().error;
     const auto breakdown = drawing.breakdown();
     ASSERT_TRUE(breakdown);
     const Scene scene = loadScene("builtin:points");
     Device device({});
     SceneViews views(scene);
     Renderer renderer(device, views);
-    Settings deferred = order.subject.settings, forward = order.subject.settings;
+    Settings deferred = request.subject.settings, forward = request.subject.settings;
     deferred.path = Path::deferred;
     forward.path = Path::forward_plus;
     const PixelBreakdown same = pixelBreakdown(renderer, views,
@@ -148,41 +148,41 @@ TEST(DrawingThread, APixelsStoryIsThatOfTheCommand) {
                                                 .y = 20,
                                                 .baseline = deferred,
                                                 .test = forward,
-                                                .reference = referenceSettings(order.subject.settings),
+                                                .reference = referenceSettings(request.subject.settings),
                                                 .device = reportDevice(device)});
     EXPECT_EQ(breakdown->text, inText(blocksOf(same)));
 }
 
 TEST(DrawingThread, WhatMovesIsDrawnAndThenWhatStandsStill) {
     DrawingThread drawing(validated());
-    DrawRequest order = orderOf("builtin:points", 320, 180);
-    order.moving = true;
+    DrawRequest request = requestOf("builtin:points", 320, 180);
+    request.moving = true;
     for (int i = 0; i < 20; ++i) {
-        order.subject.settings.camera = "eye=0," + std::to_string(1 + 0.1 * i) + ",8 target=0,0,0";
-        drawing.ask(order);
+        request.subject.settings.camera = "eye=0," + std::to_string(1 + 0.1 * i) + ",8 target=0,0,0";
+        drawing.ask(request);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     // Requests faster than images do not starve them.
     ASSERT_TRUE(soon([&] { return drawing.shown() != nullptr; }));
-    order.moving = false;
-    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
-    EXPECT_EQ(drawing.shown()->size, order.subject.settings.size);
+    request.moving = false;
+    ASSERT_TRUE(isDrawn(drawing, request)) << drawing.status().error;
+    EXPECT_EQ(drawing.shown()->size, request.subject.settings.size);
     EXPECT_EQ(drawing.shown()->camera.eye[2], 8);
     EXPECT_EQ(drawing.validationMessages(), 0u) << drawing.firstValidationMessage();
 }
 
 TEST(DrawingThread, ASceneThatCannotBeReadLeavesTheOldOne) {
     DrawingThread drawing(validated());
-    DrawRequest order = orderOf("builtin:points");
-    ASSERT_TRUE(isDrawn(drawing, order));
+    DrawRequest request = requestOf("builtin:points");
+    ASSERT_TRUE(isDrawn(drawing, request));
     const auto before = drawing.shown();
-    DrawRequest broken = order;
+    DrawRequest broken = request;
     broken.subject.scene = "nowhere.glb";
     drawing.ask(broken);
     ASSERT_TRUE(soon([&] { return !drawing.status().error.empty(); }));
     EXPECT_NE(drawing.status().error.find("nowhere.glb"), std::string::npos);
     EXPECT_EQ(drawing.shown()->panels[0].values.data, before->panels[0].values.data);
-    ASSERT_TRUE(isDrawn(drawing, order));
+    ASSERT_TRUE(isDrawn(drawing, request));
     EXPECT_TRUE(drawing.status().error.empty()) << drawing.status().error;
 }
 
@@ -198,27 +198,27 @@ TEST(DrawingThread, ALostDeviceIsMadeAnew) {
         }
     };
     DrawingThread drawing(std::move(options));
-    DrawRequest order = orderOf("builtin:points");
-    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    DrawRequest request = requestOf("builtin:points");
+    ASSERT_TRUE(isDrawn(drawing, request)) << drawing.status().error;
     EXPECT_EQ(losses, 0);
     EXPECT_TRUE(drawing.status().error.empty());
     losses = 1000;
-    order.subject.settings.gbuffer = GBufferEncoding::compact;
-    drawing.ask(order);
+    request.subject.settings.gbuffer = GBufferEncoding::compact;
+    drawing.ask(request);
     ASSERT_TRUE(soon([&] { return losses <= 996 && drawing.idle(); }));
     EXPECT_NE(drawing.status().error.find("lost"), std::string::npos);
     losses = 0;
-    order.subject.settings.gbuffer = GBufferEncoding::full;
-    ASSERT_TRUE(isDrawn(drawing, order)) << drawing.status().error;
+    request.subject.settings.gbuffer = GBufferEncoding::full;
+    ASSERT_TRUE(isDrawn(drawing, request)) << drawing.status().error;
 }
 
 TEST(DrawingThread, EveryChannelOfBothPathsIsThereOrSaysWhyNot) {
     DrawingThread drawing(validated());
-    DrawRequest order = orderOf("builtin:points", 32, 18);
+    DrawRequest request = requestOf("builtin:points", 32, 18);
     for (const DebugMode& mode : debugModes()) {
-        order.look.mode = mode.channel;
-        order.look.difference = Difference::absolute;
-        ASSERT_TRUE(isDrawn(drawing, order)) << mode.name << drawing.status().error;
+        request.view_options.mode = mode.channel;
+        request.view_options.difference = Difference::absolute;
+        ASSERT_TRUE(isDrawn(drawing, request)) << mode.name << drawing.status().error;
         for (const Panel& panel : drawing.shown()->panels) {
             EXPECT_EQ(panel.image.data.empty(), !panel.missing.empty()) << mode.name;
         }

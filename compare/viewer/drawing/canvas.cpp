@@ -91,7 +91,7 @@ std::vector<std::uint8_t> composed(const DrawnView& shown, const CanvasRect& can
     std::vector<std::uint8_t> pixels(4 * static_cast<std::size_t>(canvas.width) *
                                      static_cast<std::size_t>(canvas.height));
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = empty[i % 4];
-    const Size& full = shown.order.subject.settings.size;
+    const Size& full = shown.request.subject.settings.size;
     for (const PanelRect& panel_rect : panel_rects) {
         if (panel_rect.panel == 2 && !shown.difference) continue;
         const Image8& image =

@@ -26,12 +26,12 @@ struct DrawingThread::State {
 DrawingThread::DrawingThread(DrawingOptions options) : state_(std::make_unique<State>(std::move(options))) {}
 DrawingThread::~DrawingThread() = default;
 
-std::uint64_t DrawingThread::ask(DrawRequest order) {
+std::uint64_t DrawingThread::ask(DrawRequest request) {
     Mailbox& mailbox = state_->mailbox;
     std::uint64_t id = 0;
     mailbox.request([&] {
-        id = order.id = mailbox.wanted ? mailbox.wanted->id + 1 : 1;
-        mailbox.wanted = std::move(order);
+        id = request.id = mailbox.wanted ? mailbox.wanted->id + 1 : 1;
+        mailbox.wanted = std::move(request);
         mailbox.waiting = false;
     });
     return id;

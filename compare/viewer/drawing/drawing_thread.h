@@ -23,7 +23,7 @@ public:
 
     // Replaces the request. Work for an earlier request that is no longer needed stops at its next step.
     // Returns the id given to the request.
-    std::uint64_t ask(DrawRequest order);
+    std::uint64_t ask(DrawRequest request);
 
     // Writes the visible channel of both paths as PNG and all channels as EXR, NAME.deferred.png and so
     // on, for the last request. Never overwrites files.

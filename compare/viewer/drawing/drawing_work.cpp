@@ -76,18 +76,18 @@ private:
         std::unique_lock lock(box_.mutex);
         for (;;) {
             if (box_.stopping) return false;
-            if (box_.wanted && box_.wanted->id != order_.id) {
-                order_ = *box_.wanted;
-                both_ = ofBothPaths(order_.subject);
+            if (box_.wanted && box_.wanted->id != request_.id) {
+                request_ = *box_.wanted;
+                both_ = ofBothPaths(request_.subject);
             }
-            if (box_.save_to || (order_.id != 0 && hasWork())) {
+            if (box_.save_to || (request_.id != 0 && hasWork())) {
                 box_.waiting = false;
                 return true;
             }
             // A reference in progress is part of the request.
             box_.waiting = !drawsReference();
             box_.status.doing.clear();
-            if (left_.hasMore(order_)) {
+            if (left_.hasMore(request_)) {
                 // Shows partial references at intervals.
                 box_.signal.wait_until(lock, left_.nextUpdate());
             } else {
@@ -98,36 +98,39 @@ private:
     }
 
     bool drawsReference() const {
-        return order_.look.against == Against::reference && !order_.moving && shown_order_ == order_.id &&
-               failed_order_ != order_.id && left_.referenceDone() < 1;
+        return request_.view_options.against == Against::reference && !request_.moving &&
+               drawn_request_ == request_.id && failed_request_ != request_.id && left_.referenceDone() < 1;
     }
     bool hasWork() const {
-        if (failed_order_ == order_.id) return false;
-        if (shown_order_ != order_.id) return true;
-        if (order_.moving) return false;
-        return left_.isUpdateDue(order_) || wantsTimes() || wantsVerdict() || wantsBreakdown();
+        if (failed_request_ == request_.id) return false;
+        if (drawn_request_ != request_.id) return true;
+        if (request_.moving) return false;
+        return left_.isUpdateDue(request_) || wantsTimes() || wantsVerdict() || wantsBreakdown();
     }
     // Not while the reference uses all cores.
     bool wantsTimes() const { return timed_ != both_ && !drawsReference(); }
     // The baseline of the verdict: the reference once it is finished.
     Against evaluatedAgainst() const {
-        return order_.look.against == Against::reference && left_.referenceDone() < 1 ? Against::paths
-                                                                                      : order_.look.against;
+        return request_.view_options.against == Against::reference && left_.referenceDone() < 1
+                   ? Against::paths
+                   : request_.view_options.against;
     }
     bool wantsVerdict() const { return evaluated_of_ != both_ || evaluated_against_ != evaluatedAgainst(); }
-    bool wantsBreakdown() const { return order_.pixel && broken_down_ != std::pair(both_, *order_.pixel); }
+    bool wantsBreakdown() const {
+        return request_.pixel && broken_down_ != std::pair(both_, *request_.pixel);
+    }
 
     // One step; the most urgent first.
     void work() {
         if (const auto folder = takeSave()) return write(*folder);
-        left_.stopUnneeded(order_);
+        left_.stopUnneeded(request_);
         readScene();
         needRenderer();
-        if (shown_order_ != order_.id) {
-            if (!order_.moving) drawSmallerFirst();
+        if (drawn_request_ != request_.id) {
+            if (!request_.moving) drawSmallerFirst();
             return draw();
         }
-        if (left_.isUpdateDue(order_)) return draw();
+        if (left_.isUpdateDue(request_)) return draw();
         if (wantsBreakdown()) return breakDown();
         if (wantsTimes()) return time();
         if (wantsVerdict()) return evaluate();
@@ -137,7 +140,7 @@ private:
 
     void heed() const {
         const std::lock_guard lock(box_.mutex);
-        if (box_.stopping || (box_.wanted && box_.wanted->id != order_.id)) throw Superseded();
+        if (box_.stopping || (box_.wanted && box_.wanted->id != request_.id)) throw Superseded();
     }
     void at(double fraction, const std::string& step) {
         heed();
@@ -152,7 +155,7 @@ private:
     Stage stage(const char* what) { return {progress_, what}; }
 
     void fail(const std::string& why) {
-        failed_order_ = order_.id;
+        failed_request_ = request_.id;
         box_.publish([&] {
             box_.status.error = why;
             box_.status.doing.clear();
@@ -185,13 +188,13 @@ private:
 
     // If a scene cannot be read, the previous one stays.
     void readScene() {
-        if (!pair_.isLoaded(order_.subject)) {
+        if (!pair_.isLoaded(request_.subject)) {
             const std::lock_guard lock(box_.mutex);
             box_.status.loading = true;
         }
-        if (!pair_.load(order_.subject)) return;
+        if (!pair_.load(request_.subject)) return;
         left_.stopReference();
-        auto known = std::make_shared<SceneProperties>(propertiesOf(*pair_.scene(), order_.subject.scene));
+        auto known = std::make_shared<SceneProperties>(propertiesOf(*pair_.scene(), request_.subject.scene));
         {
             const std::lock_guard lock(box_.mutex);
             box_.properties = std::move(known);
@@ -217,9 +220,9 @@ private:
 
     // Both paths' Settings at the request's size.
     std::array<Settings, 2> fullSettings() const {
-        const Size& size = order_.subject.settings.size;
-        return {settingsOf(order_.subject, drawn_paths[0], size),
-                settingsOf(order_.subject, drawn_paths[1], size)};
+        const Size& size = request_.subject.settings.size;
+        return {settingsOf(request_.subject, drawn_paths[0], size),
+                settingsOf(request_.subject, drawn_paths[1], size)};
     }
 
     void takeProperties(const std::array<const Frame*, 2>& of, bool timed_too) {
@@ -228,15 +231,15 @@ private:
 
     // Shows a smaller image first if a still one takes long.
     void drawSmallerFirst() {
-        const Size full = order_.subject.settings.size;
+        const Size full = request_.subject.settings.size;
         if (drawn_ == both_) return;
         if (cost_.known() && cost_.of(double(full.width) * full.height) < patienceMs) return;
         drawAt(movingSize(full, movingMs, cost_), true);
     }
 
     void draw() {
-        const Size& full = order_.subject.settings.size;
-        drawAt(order_.moving ? movingSize(full, movingMs, cost_) : full, order_.moving);
+        const Size& full = request_.subject.settings.size;
+        drawAt(request_.moving ? movingSize(full, movingMs, cost_) : full, request_.moving);
     }
 
     bool has(const std::vector<Channel>& channels) const {
@@ -248,14 +251,14 @@ private:
         const auto start = Clock::now();
         if (options_.before_image) options_.before_image();
         pair_.views().clear();  // views of intermediate cameras are not needed again
-        const Channel mode = order_.look.channel();
+        const Channel mode = request_.view_options.channel();
         std::array<Frame, 2> passed;
         const bool known = !passing && drawn_ == both_ && has({mode});
         if (passing)
-            passed = mode == Channel::lit ? pair_.drawLit(order_.subject, size)
-                                          : pair_.drawChannels(order_.subject, size, {mode}, true);
+            passed = mode == Channel::lit ? pair_.drawLit(request_.subject, size)
+                                          : pair_.drawChannels(request_.subject, size, {mode}, true);
         else if (!known) {
-            std::array<Frame, 2> whole = pair_.drawChannels(order_.subject, size, {mode}, false);
+            std::array<Frame, 2> whole = pair_.drawChannels(request_.subject, size, {mode}, false);
             for (std::size_t i = 0; i < 2; ++i)
                 frames_.at(i) = std::make_shared<const Frame>(std::move(whole.at(i)));
             drawn_ = both_;
@@ -278,25 +281,25 @@ private:
     void show(const std::array<const Frame*, 2>& now, const Size& size, bool passing,
               Clock::time_point start) {
         auto next = std::make_shared<DrawnView>();
-        next->order = order_;
+        next->request = request_;
         next->size = size;
-        const LookOptions& look = order_.look;
-        const std::size_t right = order_.subject.settings.path == drawn_paths[0] ? 0 : 1;
+        const ViewOptions& view_options = request_.view_options;
+        const std::size_t right = request_.subject.settings.path == drawn_paths[0] ? 0 : 1;
         const Frame &test = *now.at(right), &other = *now.at(1 - right);
-        const bool traced = look.against == Against::reference && !passing;
+        const bool traced = view_options.against == Against::reference && !passing;
         std::shared_ptr<const Frame> left;
         if (traced)
             std::tie(left, next->reference_done) =
-                left_.reference(order_, pair_, stage("the reference's surfaces"), test);
-        else if (look.against == Against::file)
-            left = left_.storedFrame(look.file);
+                left_.reference(request_, pair_, stage("the reference's surfaces"), test);
+        else if (view_options.against == Against::file)
+            left = left_.storedFrame(view_options.file);
         // Recomputing the exposure for every smaller image would flicker.
-        if (!passing || !exposure_ || exposure_of_.image().exposure != look.exposure ||
-            exposure_of_.ev100 != look.ev100 || exposure_of_.tonemap != look.tonemap) {
-            exposure_ = exposureOf(other, test, look);
-            exposure_of_ = look;
+        if (!passing || !exposure_ || exposure_of_.image().exposure != view_options.exposure ||
+            exposure_of_.ev100 != view_options.ev100 || exposure_of_.tonemap != view_options.tonemap) {
+            exposure_ = exposureOf(other, test, view_options);
+            exposure_of_ = view_options;
         }
-        makeImages(left ? *left : other, test, look, *exposure_, *next);
+        makeImages(left ? *left : other, test, view_options, *exposure_, *next);
         if (traced && next->reference_done < 1)
             next->panels[0].name = fmt::format("reference, {:.0f} % drawn over {}",
                                                100 * next->reference_done, next->panels[1].name);
@@ -304,11 +307,11 @@ private:
         next->camera = cameraOf(view.view);
         next->view = view.view;
         next->lights = view.lights;
-        next->plan = planLines(view, order_.subject.settings);
+        next->plan = planLines(view, request_.subject.settings);
         if (!passing) next->depth = test.channels.at(Channel::depth);
         next->paths = paths_;
         next->made_in_ms = msSince(start);
-        if (!passing || order_.moving) shown_order_ = order_.id;
+        if (!passing || request_.moving) drawn_request_ = request_.id;
         box_.publish([&] {
             box_.shown = std::move(next);
             box_.status.error = pair_.sceneError();  // until a scene is read
@@ -347,7 +350,7 @@ private:
         RenderOptions render = channelOptions(everyChannel());
         render.requested = everyChannel();
         render = evaluatedOptions(std::move(render), settings,
-                                  order_.subject.settings.reference_mode == ReferenceMode::scene, false,
+                                  request_.subject.settings.reference_mode == ReferenceMode::scene, false,
                                   Twice::none);
         std::vector<Frame> pair;
         for (std::size_t i = 0; i < 2; ++i) {
@@ -374,7 +377,7 @@ private:
         }
         std::optional<Frame> earlier;
         if (against == Against::file) {
-            earlier = *left_.storedFrame(order_.look.file);
+            earlier = *left_.storedFrame(request_.view_options.file);
             earlier->requested = view.frames[0].requested;
         }
         return makeReport(std::move(views), here, compare, std::move(earlier));
@@ -409,10 +412,10 @@ private:
     }
 
     void breakDown() {
-        const Settings& settings = order_.subject.settings;
+        const Settings& settings = request_.subject.settings;
         const std::array both = fullSettings();
-        const PixelQuery query{.x = order_.pixel->x,
-                               .y = order_.pixel->y,
+        const PixelQuery query{.x = request_.pixel->x,
+                               .y = request_.pixel->y,
                                .baseline = both[0],
                                .test = both[1],
                                .reference = referenceSettings(settings),
@@ -421,9 +424,9 @@ private:
                                .light_differs = lightDifferences(both[0], both[1]),
                                .progress = stage("this pixel")};
         auto next = std::make_shared<Breakdown>(
-            Breakdown{both_, *order_.pixel, pixelBreakdown(pair_.renderer(), pair_.views(), query), {}});
+            Breakdown{both_, *request_.pixel, pixelBreakdown(pair_.renderer(), pair_.views(), query), {}});
         next->text = inText(blocksOf(next->breakdown));
-        broken_down_ = std::pair(both_, *order_.pixel);
+        broken_down_ = std::pair(both_, *request_.pixel);
         const std::lock_guard lock(box_.mutex);
         box_.breakdown = std::move(next);
     }
@@ -441,7 +444,7 @@ private:
             readScene();
             needRenderer();
             line = fmt::format("written: {}.*, .exr and .png of both paths",
-                               writeScreenshot(pair_, order_, folder));
+                               writeScreenshot(pair_, request_, folder));
         } catch (const Superseded&) {
             // A newer request comes first.
             const std::lock_guard lock(box_.mutex);
@@ -455,13 +458,13 @@ private:
 
     const DrawingOptions& options_;
     Mailbox& box_;
-    DrawRequest order_;  // the current request
-    Subject both_;       // the same, independent of the right panel's path
+    DrawRequest request_;  // the current request
+    Subject both_;         // the same, independent of the right panel's path
     // Deferred, forward+, of `drawn_`; those of a verdict point into its report.
     std::array<std::shared_ptr<const Frame>, 2> frames_;
     std::optional<Subject> drawn_;  // still and at full size
     std::vector<Channel> drawn_channels_;
-    std::optional<std::uint64_t> shown_order_, failed_order_;
+    std::optional<std::uint64_t> drawn_request_, failed_request_;
     std::optional<Subject> timed_, evaluated_of_;
     Against evaluated_against_ = Against::paths;
     std::optional<std::pair<Subject, PixelPosition>> broken_down_;
@@ -469,7 +472,7 @@ private:
     ImageCost cost_;                    // of moving images, once their pipelines exist
     std::size_t compiled_ = 0;          // number of pipelines after the last image
     std::optional<Exposure> exposure_;  // of the last still image
-    LookOptions exposure_of_;
+    ViewOptions exposure_of_;
     int recoveries_ = 0;
     std::uint64_t of_lost_devices_ = 0;  // messages of the validation layers
     Progress progress_;                  // throws Superseded if the work is no longer needed

@@ -140,15 +140,16 @@ std::array<std::uint8_t, 3> signedColor(double t) {
             static_cast<std::uint8_t>(std::lround(end[2] * size))};
 }
 
-Exposure exposureOf(const Frame& left, const Frame& right, const LookOptions& look) {
+Exposure exposureOf(const Frame& left, const Frame& right, const ViewOptions& view_options) {
     const Frame& frame = findChannel(left, Channel::lit) ? left : right;
-    return exposureFor(look.image(), findChannel(frame, Channel::lit), coverage(frame, frame));
+    return exposureFor(view_options.image(), findChannel(frame, Channel::lit), coverage(frame, frame));
 }
 
-DifferencePanel differenceOf(const Frame& left, const Frame& right, const LookOptions& look) {
-    const DebugMode& mode = debugMode(look.channel());
-    const Image *const baseline = findChannel(left, look.channel()), *const test =
-                                                                         findChannel(right, look.channel());
+DifferencePanel differenceOf(const Frame& left, const Frame& right, const ViewOptions& view_options) {
+    const DebugMode& mode = debugMode(view_options.channel());
+    const Image *const baseline = findChannel(left, view_options.channel()), *const test = findChannel(
+                                                                                 right,
+                                                                                 view_options.channel());
     DifferencePanel panel;
     if (!baseline || !test) {
         panel.missing = fmt::format("only one of the two images has {}", mode.name);
@@ -161,26 +162,27 @@ DifferencePanel differenceOf(const Frame& left, const Frame& right, const LookOp
                         baseline->width, baseline->height, titleOf(right), test->width, test->height);
         return panel;
     }
-    panel = measured(mode, *baseline, *test, coverage(left, right), look.difference);
+    panel = measured(mode, *baseline, *test, coverage(left, right), view_options.difference);
     if (!panel.missing.empty() || panel.values.empty()) return panel;
-    panel.top = look.difference == Difference::flip ? 1 : topOf(panel.values);
+    panel.top = view_options.difference == Difference::flip ? 1 : topOf(panel.values);
     panel.image = panel.is_signed ? signedImage(panel.values, panel.top)
                                   : errorMap(panel.values, panel.top > 0 ? panel.top : 1);
     return panel;
 }
 
-void makeImages(const Frame& left, const Frame& right, const LookOptions& look, const Exposure& exposure,
-                DrawnView& shown) {
-    const DebugMode& mode = debugMode(look.channel());
+void makeImages(const Frame& left, const Frame& right, const ViewOptions& view_options,
+                const Exposure& exposure, DrawnView& shown) {
+    const DebugMode& mode = debugMode(view_options.channel());
     std::vector<const Frame*> having;
     for (const Frame* frame : {&left, &right})
-        if (findChannel(*frame, look.channel())) having.push_back(frame);
+        if (findChannel(*frame, view_options.channel())) having.push_back(frame);
     ImageScale scale;
     if (!having.empty()) scale = scaleFor(mode, exposure, having);
     shown.panels = {panelOf(left, mode, scale), panelOf(right, mode, scale)};
     shown.scale = scale.text;
     shown.heat_top = isHeat(mode) && !having.empty() ? scale.high : 0;
-    if (look.difference != Difference::none) shown.difference = differenceOf(left, right, look);
+    if (view_options.difference != Difference::none)
+        shown.difference = differenceOf(left, right, view_options);
 }
 
 std::string_view nameOf(Against against) {

@@ -13,8 +13,8 @@ namespace {
 // Interval between updates of the reference.
 constexpr std::chrono::milliseconds referencePause{200};
 
-bool showsReference(const DrawRequest& order) {
-    return order.look.against == Against::reference && !order.moving;
+bool showsReference(const DrawRequest& request) {
+    return request.view_options.against == Against::reference && !request.moving;
 }
 
 }  // namespace
@@ -22,10 +22,10 @@ bool showsReference(const DrawRequest& order) {
 LeftPanel::LeftPanel(Mailbox& mailbox)
     : reference_([this, &mailbox] { mailbox.request([this] { more_ = true; }); }) {}
 
-std::pair<std::shared_ptr<const Frame>, double> LeftPanel::reference(const DrawRequest& order,
+std::pair<std::shared_ptr<const Frame>, double> LeftPanel::reference(const DrawRequest& request,
                                                                      PairRenderer& pair, const Stage& stage,
                                                                      const Frame& under) {
-    Settings wanted = referenceSettings(order.subject.settings);
+    Settings wanted = referenceSettings(request.subject.settings);
     if (const auto problem = wanted.problem()) throw std::runtime_error(*problem);
     if (reference_.settings() != wanted || reference_scene_ != pair.scene()) {
         reference_scene_ = pair.scene();
@@ -44,9 +44,10 @@ std::pair<std::shared_ptr<const Frame>, double> LeftPanel::reference(const DrawR
     reference_shown_ = Clock::now();
     if (const std::string error = reference_.error(); !error.empty()) throw std::runtime_error(error);
     const double done = reference_.done();
-    return {reference_.frame({Channel::lit, Channel::material_id, Channel::depth, order.look.channel()},
-                             &under.channels.at(Channel::lit)),
-            done};
+    return {
+        reference_.frame({Channel::lit, Channel::material_id, Channel::depth, request.view_options.channel()},
+                         &under.channels.at(Channel::lit)),
+        done};
 }
 
 std::shared_ptr<const Frame> LeftPanel::storedFrame(const std::filesystem::path& file) {
@@ -55,22 +56,22 @@ std::shared_ptr<const Frame> LeftPanel::storedFrame(const std::filesystem::path&
     return stored_->second;
 }
 
-void LeftPanel::stopUnneeded(const DrawRequest& order) {
+void LeftPanel::stopUnneeded(const DrawRequest& request) {
     if (reference_.done() < 1 &&
-        !(showsReference(order) && reference_.settings() == referenceSettings(order.subject.settings)))
+        !(showsReference(request) && reference_.settings() == referenceSettings(request.subject.settings)))
         reference_.stop();
 }
 
-bool LeftPanel::hasMore(const DrawRequest& order) const {
-    return more_ && showsReference(order);
+bool LeftPanel::hasMore(const DrawRequest& request) const {
+    return more_ && showsReference(request);
 }
 
 LeftPanel::Clock::time_point LeftPanel::nextUpdate() const {
     return reference_shown_ + referencePause;
 }
 
-bool LeftPanel::isUpdateDue(const DrawRequest& order) const {
-    return hasMore(order) && (reference_.done() >= 1 || Clock::now() >= nextUpdate());
+bool LeftPanel::isUpdateDue(const DrawRequest& request) const {
+    return hasMore(request) && (reference_.done() >= 1 || Clock::now() >= nextUpdate());
 }
 
 }  // namespace diptych::viewer

@@ -25,19 +25,19 @@ public:
 
     // The request's reference as far as it is rendered, over `under`, and the finished fraction. Starts it
     // if it is another one than before. Throws std::runtime_error if it fails.
-    std::pair<std::shared_ptr<const Frame>, double> reference(const DrawRequest& order, PairRenderer& pair,
+    std::pair<std::shared_ptr<const Frame>, double> reference(const DrawRequest& request, PairRenderer& pair,
                                                               const Stage& stage, const Frame& under);
     std::shared_ptr<const Frame> storedFrame(const std::filesystem::path& file);
     std::shared_ptr<const Frame> finishedReference() const { return reference_.frame({}, nullptr); }
 
     void stopReference() { reference_.stop(); }
     // Stops a reference in progress that the request does not need.
-    void stopUnneeded(const DrawRequest& order);
+    void stopUnneeded(const DrawRequest& request);
     double referenceDone() const { return reference_.done(); }  // 0 to 1; 1: finished
     // Whether the reference has new pixels for the request; show them at `nextUpdate`.
-    bool hasMore(const DrawRequest& order) const;
+    bool hasMore(const DrawRequest& request) const;
     Clock::time_point nextUpdate() const;
-    bool isUpdateDue(const DrawRequest& order) const;
+    bool isUpdateDue(const DrawRequest& request) const;
 
 private:
     std::atomic<bool> more_{false};

@@ -45,7 +45,7 @@ inline Subject ofBothPaths(Subject subject) {
 }
 
 // View options.
-struct LookOptions {
+struct ViewOptions {
     Channel mode = Channel::lit;
     bool heat = false;  // light-count heat map instead of the chosen channel
     Against against = Against::paths;
@@ -54,7 +54,7 @@ struct LookOptions {
     std::optional<double> exposure{};  // ImageChoice
     std::optional<double> ev100{};
     bool tonemap = true;
-    bool operator==(const LookOptions&) const = default;
+    bool operator==(const ViewOptions&) const = default;
     // The visible one.
     Channel channel() const { return heat ? Channel::light_count : mode; }
     ImageChoice image() const { return {exposure, ev100, tonemap}; }
@@ -63,7 +63,7 @@ struct LookOptions {
 struct DrawRequest {
     std::uint64_t id = 0;  // increases
     Subject subject;
-    LookOptions look;
+    ViewOptions view_options;
     bool moving = false;                 // smaller images, and nothing else
     std::optional<PixelPosition> pixel;  // the pixel to break down
 };

@@ -51,7 +51,7 @@ struct PathProperties {
 
 // Immutable once published.
 struct DrawnView {
-    DrawRequest order;            // the request
+    DrawRequest request;
     Size size;                    // of the images; smaller than requested while moving
     std::array<Panel, 2> panels;  // left, right
     std::optional<DifferencePanel> difference;

@@ -9,7 +9,7 @@
 
 namespace diptych::viewer {
 
-std::string writeScreenshot(PairRenderer& pair, const DrawRequest& order,
+std::string writeScreenshot(PairRenderer& pair, const DrawRequest& request,
                             const std::filesystem::path& folder) {
     pair.views().clear();  // of intermediate cameras
     RenderOptions render = channelOptions(everyChannel());
@@ -19,14 +19,14 @@ std::string writeScreenshot(PairRenderer& pair, const DrawRequest& order,
     for (int id = 1; stem.empty() || std::filesystem::exists(stem.string() + ".deferred.exr"); ++id)
         stem = folder / fmt::format("diptych-view-{:04}", id);
     const ReportDevice made = reportDevice(*pair.device());
-    const DebugMode& mode = debugMode(order.look.channel());
+    const DebugMode& mode = debugMode(request.view_options.channel());
     for (const Path path : drawn_paths) {
         const Frame frame =
-            pair.renderer().draw(settingsOf(order.subject, path, order.subject.settings.size), render);
+            pair.renderer().draw(settingsOf(request.subject, path, request.subject.settings.size), render);
         const std::string name = fmt::format("{}.{}", stem.string(), nameOf(path));
-        writeFrame(frame, made, {OutputKind::exr, name + ".exr"}, {&mode}, order.look.image());
+        writeFrame(frame, made, {OutputKind::exr, name + ".exr"}, {&mode}, request.view_options.image());
         if (frame.channels.contains(mode.channel))
-            writeFrame(frame, made, {OutputKind::png, name + ".png"}, {&mode}, order.look.image());
+            writeFrame(frame, made, {OutputKind::png, name + ".png"}, {&mode}, request.view_options.image());
     }
     return stem.string();
 }

@@ -11,7 +11,7 @@ namespace diptych::viewer {
 
 // Writes the visible channel of both paths as PNG and all channels as EXR, STEM.deferred.png and so on.
 // Returns the stem, a new one in `folder`. Throws std::runtime_error.
-std::string writeScreenshot(PairRenderer& pair, const DrawRequest& order,
+std::string writeScreenshot(PairRenderer& pair, const DrawRequest& request,
                             const std::filesystem::path& folder);
 
 }  // namespace diptych::viewer

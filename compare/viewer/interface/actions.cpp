@@ -20,22 +20,22 @@ void cycle(Value& value, std::initializer_list<Value> values) {
 }
 
 // Steps through the channels above 9, by number.
-void nextChannel(LookOptions& look, int step) {
+void nextChannel(ViewOptions& view_options, int step) {
     std::vector<Channel> beyond;
     for (const DebugMode& mode : debugModes())
         if (channelIndex(mode.channel) > 9) beyond.push_back(mode.channel);
     const auto count = static_cast<std::ptrdiff_t>(beyond.size());
-    std::ptrdiff_t at = std::ranges::find(beyond, look.mode) - beyond.begin();
+    std::ptrdiff_t at = std::ranges::find(beyond, view_options.mode) - beyond.begin();
     at = at == count ? (step > 0 ? 0 : count - 1) : (at + step + count) % count;
-    look.mode = beyond[static_cast<std::size_t>(at)];
+    view_options.mode = beyond[static_cast<std::size_t>(at)];
 }
 
-void nextLeftPanel(const std::filesystem::path& stored, LookOptions& look) {
+void nextLeftPanel(const std::filesystem::path& stored, ViewOptions& view_options) {
     if (stored.empty())
-        cycle(look.against, {Against::paths, Against::reference});
+        cycle(view_options.against, {Against::paths, Against::reference});
     else
-        cycle(look.against, {Against::paths, Against::reference, Against::file});
-    look.file = look.against == Against::file ? stored : std::filesystem::path();
+        cycle(view_options.against, {Against::paths, Against::reference, Against::file});
+    view_options.file = view_options.against == Against::file ? stored : std::filesystem::path();
 }
 
 // Switches the lights of --lights; false if there are none.
@@ -61,31 +61,32 @@ std::optional<std::string> actOnState(const KeyPress& pressed, bool shift, const
             return state.orbiting ? "dragging orbits what is under the cursor" : "dragging looks around";
         case Action::wipe:
             // A difference has no panels to arrange.
-            if (std::exchange(state.look.difference, Difference::none) == Difference::none)
+            if (std::exchange(state.view_options.difference, Difference::none) == Difference::none)
                 cycle(state.canvas.layout, {Layout::wipe, Layout::side_by_side, Layout::single});
             break;
         case Action::difference:
-            cycle(state.look.difference, {Difference::none, Difference::signed_difference,
-                                          Difference::absolute, Difference::relative, Difference::flip});
+            cycle(state.view_options.difference,
+                  {Difference::none, Difference::signed_difference, Difference::absolute,
+                   Difference::relative, Difference::flip});
             break;
         case Action::against:
-            nextLeftPanel(state.stored, state.look);
+            nextLeftPanel(state.stored, state.view_options);
             break;
         case Action::swap:
             for (Settings* s : {&state.subject.settings, &state.edited})
                 s->path = s->path == drawn_paths[0] ? drawn_paths[1] : drawn_paths[0];
             break;
         case Action::channel:
-            state.look.mode = channelOfIndex(pressed.index).value();
+            state.view_options.mode = channelOfIndex(pressed.index).value();
             break;
         case Action::next_channel:
-            nextChannel(state.look, shift ? -1 : 1);
+            nextChannel(state.view_options, shift ? -1 : 1);
             break;
         case Action::light_debug:
             state.light_debug = !state.light_debug;
             break;
         case Action::light_visibility:
-            state.look.heat = !state.look.heat;
+            state.view_options.heat = !state.view_options.heat;
             break;
         case Action::information:
             state.information = !state.information;

@@ -46,37 +46,37 @@ std::string_view nameOf(Layout layout) {
 }
 
 void channelCombo(InterfaceState& state, float width) {
-    const DebugMode& now = debugMode(state.look.mode);
+    const DebugMode& now = debugMode(state.view_options.mode);
     ImGui::SetNextItemWidth(width);
     if (!ImGui::BeginCombo("##channel", fmt::format("{} {}", channelIndex(now.channel), now.name).c_str(),
                            ImGuiComboFlags_HeightLarge))
         return;
     for (const DebugMode& mode : debugModes()) {
         if (ImGui::Selectable(fmt::format("{} {}", channelIndex(mode.channel), mode.name).c_str(),
-                              mode.channel == state.look.mode))
-            state.look.mode = mode.channel;
+                              mode.channel == state.view_options.mode))
+            state.view_options.mode = mode.channel;
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(mode.shows).c_str());
     }
     ImGui::EndCombo();
 }
 
 void exposureInput(InterfaceState& state, const Contents& contents, float width) {
-    bool automatic = !state.look.exposure && !state.look.ev100;
+    bool automatic = !state.view_options.exposure && !state.view_options.ev100;
     if (ImGui::Checkbox("auto", &automatic)) {
-        state.look.exposure.reset();
-        state.look.ev100.reset();
-        if (!automatic) state.look.exposure = 1;
+        state.view_options.exposure.reset();
+        state.view_options.ev100.reset();
+        if (!automatic) state.view_options.exposure = 1;
     }
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("exposure: %s", contents.shown ? contents.shown->scale.c_str() : "automatic");
-    if (!state.look.exposure) return;
+    if (!state.view_options.exposure) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(width);
-    auto factor = static_cast<float>(*state.look.exposure);
+    auto factor = static_cast<float>(*state.view_options.exposure);
     if (ImGui::DragFloat("##exposure", &factor, 0.01f * factor, 1e-12f, 1e12f, "x %.4g",
                          ImGuiSliderFlags_Logarithmic) &&
         factor > 0)
-        state.look.exposure = double{factor};
+        state.view_options.exposure = double{factor};
 }
 
 void bar(InterfaceState& state, const Contents& contents, int width, float scale) {
@@ -97,7 +97,7 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
     ImGui::SameLine();
     channelCombo(state, 180 * scale);
     next();
-    ImGui::Checkbox("heat map", &state.look.heat);
+    ImGui::Checkbox("heat map", &state.view_options.heat);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("how many lights each pixel evaluates (E)");
     next();
     ImGui::TextUnformatted("panels");
@@ -107,20 +107,20 @@ void bar(InterfaceState& state, const Contents& contents, int width, float scale
     next();
     ImGui::TextUnformatted("against");
     ImGui::SameLine();
-    Against against = state.look.against;
+    Against against = state.view_options.against;
     combo("##against", 134 * scale, against,
           state.stored.empty()
               ? std::initializer_list<Against>{Against::paths, Against::reference}
               : std::initializer_list<Against>{Against::paths, Against::reference, Against::file},
           [](Against a) { return viewer::nameOf(a); });
-    if (against != state.look.against) {
-        state.look.against = against;
-        state.look.file = against == Against::file ? state.stored : std::filesystem::path();
+    if (against != state.view_options.against) {
+        state.view_options.against = against;
+        state.view_options.file = against == Against::file ? state.stored : std::filesystem::path();
     }
     next();
     ImGui::TextUnformatted("difference");
     ImGui::SameLine();
-    combo("##difference", 92 * scale, state.look.difference,
+    combo("##difference", 92 * scale, state.view_options.difference,
           {Difference::none, Difference::signed_difference, Difference::absolute, Difference::relative,
            Difference::flip},
           [](Difference d) { return viewer::nameOf(d); });
@@ -185,16 +185,18 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
             {static_cast<float>(panel_rect.rect.x + panel_rect.rect.width),
              static_cast<float>(panel_rect.rect.y + panel_rect.rect.height)});
         if (panel_rect.panel == 2) {
-            const std::string kind = fmt::format(
-                "{} difference of {}: {} (right) and {} (left)", viewer::nameOf(state.look.difference),
-                debugMode(shown.order.look.channel()).name, shown.panels[1].name, shown.panels[0].name);
+            const std::string kind = fmt::format("{} difference of {}: {} (right) and {} (left)",
+                                                 viewer::nameOf(state.view_options.difference),
+                                                 debugMode(shown.request.view_options.channel()).name,
+                                                 shown.panels[1].name, shown.panels[0].name);
             drawOutlined(x, y, white, kind);
             if (shown.difference && !shown.difference->missing.empty())
                 drawOutlined(x, y + ImGui::GetTextLineHeightWithSpacing(), grey, shown.difference->missing);
         } else {
             const Panel& panel = shown.panels.at(panel_rect.panel);
-            drawOutlined(x, y, white,
-                         fmt::format("{}: {}", panel.name, debugMode(shown.order.look.channel()).name));
+            drawOutlined(
+                x, y, white,
+                fmt::format("{}: {}", panel.name, debugMode(shown.request.view_options.channel()).name));
             if (!panel.missing.empty())
                 drawOutlined(x, y + ImGui::GetTextLineHeightWithSpacing(), grey, panel.missing);
         }
@@ -205,7 +207,7 @@ void titles(const InterfaceState& state, const Contents& contents, const std::ve
 void wipeLine(const InterfaceState& state, const CanvasRect& canvas,
               const std::vector<PanelRect>& panel_rects, float scale) {
     if (state.canvas.layout != Layout::wipe || panel_rects.empty() ||
-        state.look.difference != Difference::none)
+        state.view_options.difference != Difference::none)
         return;
     const auto x =
         static_cast<float>(canvas.x) + static_cast<float>(std::lround(state.canvas.wipe * canvas.width));
@@ -271,7 +273,7 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
             canvas, scale, [](double t) { return heatColor(t); },
             {"0", fmt::format("{:g}", 0.5 * shown.heat_top), fmt::format("{:g}", shown.heat_top)},
             "lights per pixel");
-    } else if (shown.order.look.channel() != Channel::lit) {
+    } else if (shown.request.view_options.channel() != Channel::lit) {
         drawOutlined(static_cast<float>(canvas.x) + 12 * scale,
                      static_cast<float>(canvas.y + canvas.height) - 24 * scale, white, shown.scale);
     }
@@ -280,7 +282,7 @@ void legends(const Contents& contents, const CanvasRect& canvas, const std::vect
 // Writes values into large pixels.
 void values(const Contents& contents, const std::vector<PanelRect>& panel_rects, float scale) {
     const DrawnView& shown = *contents.shown;
-    const Size& full = shown.order.subject.settings.size;
+    const Size& full = shown.request.subject.settings.size;
     for (const PanelRect& panel_rect : panel_rects) {
         const auto [left, top, size] = panel_rect.placement;
         if (size < valuesFrom * double{scale} || (panel_rect.panel == 2 && !shown.difference)) continue;
@@ -326,7 +328,7 @@ std::optional<Projected> project(const View& view, const glm::dvec3& world, cons
 // A circle of the light's range, and the light's position.
 void lights(const Contents& contents, const std::vector<PanelRect>& panel_rects, float scale) {
     const DrawnView& shown = *contents.shown;
-    const Size& full = shown.order.subject.settings.size;
+    const Size& full = shown.request.subject.settings.size;
     ImDrawList* const list = ImGui::GetBackgroundDrawList();
     for (const PanelRect& panel_rect : panel_rects) {
         list->PushClipRect({static_cast<float>(panel_rect.rect.x), static_cast<float>(panel_rect.rect.y)},

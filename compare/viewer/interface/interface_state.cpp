@@ -63,7 +63,7 @@ std::string valueText(const Image& image, int x, int y) {
 std::string belowText(const Contents& contents) {
     if (!contents.under || !contents.shown) return "no pixel under the cursor";
     const DrawnView& shown = *contents.shown;
-    const Size& full = shown.order.subject.settings.size;
+    const Size& full = shown.request.subject.settings.size;
     const auto [x, y] = contents.under->pixel;
     std::string words = fmt::format("{},{}", x, y);
     for (const Panel& panel : shown.panels)
@@ -81,7 +81,7 @@ std::string belowText(const Contents& contents) {
 
 std::vector<PanelRect> panelRectsOf(const CanvasRect& canvas, const InterfaceState& state) {
     return panelRectsOf(canvas, state.subject.settings.size, state.canvas,
-                        state.look.difference != Difference::none);
+                        state.view_options.difference != Difference::none);
 }
 
 const std::string& sceneOf(const InterfaceState& state) {
@@ -92,22 +92,23 @@ std::string renderCommand(const InterfaceState& state) {
     std::vector<std::string> words =
         commandArguments("render", sceneOf(state),
                          state.subject.sides.of(state.subject.settings, state.subject.settings.path));
-    if (state.look.channel() != Channel::lit)
-        words = withOption(std::move(words), "--debug", std::string(debugMode(state.look.channel()).name));
-    if (state.look.exposure)
-        words = withOption(std::move(words), "--exposure", fmt::format("{}", *state.look.exposure));
-    if (state.look.ev100)
-        words = withOption(std::move(words), "--ev100", fmt::format("{}", *state.look.ev100));
-    if (!state.look.tonemap) words = withArguments(std::move(words), {"--no-tonemap"});
+    if (state.view_options.channel() != Channel::lit)
+        words = withOption(std::move(words), "--debug",
+                           std::string(debugMode(state.view_options.channel()).name));
+    if (state.view_options.exposure)
+        words = withOption(std::move(words), "--exposure", fmt::format("{}", *state.view_options.exposure));
+    if (state.view_options.ev100)
+        words = withOption(std::move(words), "--ev100", fmt::format("{}", *state.view_options.ev100));
+    if (!state.view_options.tonemap) words = withArguments(std::move(words), {"--no-tonemap"});
     return shellLine(words);
 }
 
 std::string compareCommand(const InterfaceState& state) {
     std::vector<std::string> words = commandArguments("compare", sceneOf(state), state.subject.settings);
-    if (state.look.against == Against::reference)
+    if (state.view_options.against == Against::reference)
         words = withOption(std::move(words), "--baseline", "reference");
-    if (state.look.against == Against::file)
-        words = withOption(std::move(words), "--baseline", state.look.file.string());
+    if (state.view_options.against == Against::file)
+        words = withOption(std::move(words), "--baseline", state.view_options.file.string());
     return shellLine(withArguments(std::move(words), state.counted));
 }
 

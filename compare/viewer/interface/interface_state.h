@@ -34,7 +34,7 @@ struct InterfaceState {
     Subject subject;
     std::string
         loaded;  // the rendered scene; differs from the subject's while that is read or cannot be read
-    LookOptions look;
+    ViewOptions view_options;
     std::filesystem::path stored;  // file that T shows in the left panel; empty: none
     CanvasView canvas;
     bool follow = true;  // images are as large as the canvas

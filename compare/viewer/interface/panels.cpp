@@ -121,7 +121,7 @@ float timesHeight(const Contents& contents) {
 void times(const Contents& contents) {
     const DrawnView& shown = *contents.shown;
     ImGui::Separator();
-    const bool small = shown.size.width != shown.order.subject.settings.size.width;
+    const bool small = shown.size.width != shown.request.subject.settings.size.width;
     ImGui::Text("%dx%d%s", shown.size.width, shown.size.height, small ? ", reduced while moving" : "");
     if (ImGui::BeginTable("times", 4, ImGuiTableFlags_SizingFixedFit)) {
         for (const char* column : {"path", "time", "memory"}) ImGui::TableSetupColumn(column);

@@ -24,15 +24,17 @@ std::string metric(double value) {
 void showComparison(InterfaceState& state, const Report& report, const Comparison& comparison) {
     const Frame &baseline = report.baseline(comparison), &test = report.test(comparison);
     for (Settings* settings : {&state.subject.settings, &state.edited}) settings->path = test.settings.path;
-    state.look.against = !baseline.origin.file.empty() ? Against::file
-                         : isReferenceFrame(baseline)  ? Against::reference
-                                                       : Against::paths;
-    state.look.file = state.look.against == Against::file ? state.stored : std::filesystem::path();
+    state.view_options.against = !baseline.origin.file.empty() ? Against::file
+                                 : isReferenceFrame(baseline)  ? Against::reference
+                                                               : Against::paths;
+    state.view_options.file =
+        state.view_options.against == Against::file ? state.stored : std::filesystem::path();
 }
 
 bool isShown(const InterfaceState& state, const Report& report, const Comparison& comparison) {
     return report.test(comparison).settings.path == state.subject.settings.path &&
-           isReferenceFrame(report.baseline(comparison)) == (state.look.against == Against::reference);
+           isReferenceFrame(report.baseline(comparison)) ==
+               (state.view_options.against == Against::reference);
 }
 
 void channelRow(InterfaceState& state, const Report& report, const Comparison& comparison,
@@ -41,15 +43,16 @@ void channelRow(InterfaceState& state, const Report& report, const Comparison& c
     ImGui::TableNextColumn();
     const bool compared = isCompared(channel.verdict);
     const std::string name(channel.mode->name);
-    if (ImGui::Selectable(name.c_str(),
-                          channel.mode->channel == state.look.mode && isShown(state, report, comparison),
-                          ImGuiSelectableFlags_SpanAllColumns)) {
-        state.look.mode = channel.mode->channel;
+    if (ImGui::Selectable(
+            name.c_str(),
+            channel.mode->channel == state.view_options.mode && isShown(state, report, comparison),
+            ImGuiSelectableFlags_SpanAllColumns)) {
+        state.view_options.mode = channel.mode->channel;
         showComparison(state, report, comparison);
         if (compared && channel.stats.worst_x >= 0)
             state.requests.worst = {channel.mode->channel, {channel.stats.worst_x, channel.stats.worst_y}};
-        if (compared && state.look.difference == Difference::none)
-            state.look.difference = Difference::absolute;
+        if (compared && state.view_options.difference == Difference::none)
+            state.view_options.difference = Difference::absolute;
     }
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();

@@ -31,11 +31,11 @@ void FlyCamera::take(const FrameCamera& camera) {
     eye_ = {camera.eye[0], camera.eye[1], camera.eye[2]};
     const glm::dvec3 target(camera.target[0], camera.target[1], camera.target[2]);
     const glm::dvec3 to = target - eye_;
-    reach_ = glm::length(to);
-    if (!(reach_ > 0) || !std::isfinite(reach_)) return;
+    target_distance_ = glm::length(to);
+    if (!(target_distance_ > 0) || !std::isfinite(target_distance_)) return;
     known_ = true;
-    heading_ = headingOf(to / reach_);
-    pitch_ = std::clamp(pitchOf(to / reach_), -steepest, steepest);
+    heading_ = headingOf(to / target_distance_);
+    pitch_ = std::clamp(pitchOf(to / target_distance_), -steepest, steepest);
     fov_ = camera.fov_degrees;
     near_ = camera.near;
     far_ = camera.far;
@@ -68,7 +68,7 @@ void FlyCamera::orbit(const glm::dvec3& pivot, double right, double up) {
 }
 
 std::string FlyCamera::describe() const {
-    const glm::dvec3 target = eye_ + forward() * reach_;
+    const glm::dvec3 target = eye_ + forward() * target_distance_;
     return fmt::format(
         "eye={:.9g},{:.9g},{:.9g} target={:.9g},{:.9g},{:.9g} fov={:.9g} near={:.9g} far={:.9g}", eye_.x,
         eye_.y, eye_.z, target.x, target.y, target.z, fov_, near_, far_);

@@ -36,13 +36,13 @@ public:
     glm::dvec3 forward() const;  // unit, world
     glm::dvec3 right() const;    // unit, world
     // Distance to the camera's target when it was taken over, m: a scale for speeds.
-    double reach() const { return reach_; }
+    double targetDistance() const { return target_distance_; }
 
 private:
     bool known_ = false;
     glm::dvec3 eye_{0};
     double heading_ = 0, pitch_ = 0;  // rad: about +Y from -Z, counter-clockwise seen from above; upwards
-    double fov_ = 0, near_ = 0.1, far_ = 1000, reach_ = 1;
+    double fov_ = 0, near_ = 0.1, far_ = 1000, target_distance_ = 1;
 };
 
 // The world position at a pixel, from its depth (m along the view direction, 0: background); empty in the

@@ -43,7 +43,7 @@ void Mouse::handle(const Input& input, const CanvasRect& canvas, double scale, b
             }
         } else if (button.button == GLFW_MOUSE_BUTTON_LEFT) {
             const bool wipes = state_.canvas.layout == Layout::wipe &&
-                               state_.look.difference == Difference::none &&
+                               state_.view_options.difference == Difference::none &&
                                std::abs(button.x - wipePosition(canvas)) <= wipeReach * scale;
             drag_ = wipes ? Drag::wipe : state_.canvas.zoom > 0 ? Drag::image : Drag::look;
             pivot_ = pivotAt(panel_rects, button.x, button.y);
@@ -109,16 +109,16 @@ void Mouse::wheel(const Input& input, const std::vector<PanelRect>& panel_rects)
         return;
     }
     state_.speed = std::clamp(state_.speed * std::exp2(0.5 * input.wheel), 1e-4, 1e4);
-    calls_.tell(fmt::format("speed {:.3g} m/s", state_.speed * camera_.reach()));
+    calls_.tell(fmt::format("speed {:.3g} m/s", state_.speed * camera_.targetDistance()));
 }
 
 // The world position of the pixel, once this view is rendered at full size; else the camera's target.
 glm::dvec3 Mouse::pivotAt(const std::vector<PanelRect>& panel_rects, double x, double y) const {
-    const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.reach();
+    const glm::dvec3 ahead = camera_.eye() + camera_.forward() * camera_.targetDistance();
     const auto under = pixelUnder(panel_rects, state_.subject.settings.size, x, y);
     const std::shared_ptr<const DrawnView>& shown = contents_.shown;
     if (!under || !shown || shown->depth.empty() ||
-        ofBothPaths(shown->order.subject) != ofBothPaths(state_.subject))
+        ofBothPaths(shown->request.subject) != ofBothPaths(state_.subject))
         return ahead;
     return seenAt(shown->view, shown->depth, under->pixel).value_or(ahead);
 }

@@ -82,7 +82,8 @@ void Screen::draw(InterfaceState& state, const Contents& contents, const CanvasR
 
 void Screen::compose(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
                      const std::vector<PanelRect>& panel_rects) {
-    const Composed now{contents.shown, canvas, state.canvas, state.look.difference != Difference::none};
+    const Composed now{contents.shown, canvas, state.canvas,
+                       state.view_options.difference != Difference::none};
     if (!now.shown || now == composed_) return;
     composed_ = now;
     pixels_.x = canvas.x;

@@ -19,9 +19,9 @@ Image8 colored(int width, int height, std::uint8_t base) {
 
 DrawnView shownOf(int width, int height) {
     DrawnView shown;
-    shown.order.subject.settings.size.width = width;
-    shown.order.subject.settings.size.height = height;
-    shown.size = shown.order.subject.settings.size;
+    shown.request.subject.settings.size.width = width;
+    shown.request.subject.settings.size.height = height;
+    shown.size = shown.request.subject.settings.size;
     shown.panels[0].image = colored(width, height, 0);
     shown.panels[1].image = colored(width, height, 100);
     return shown;
@@ -133,8 +133,8 @@ TEST(ViewerCanvas, ASmallerImageFillsTheSamePlace) {
     const CanvasRect canvas{0, 0, 8, 8};
     CanvasView view;
     view.layout = Layout::single;
-    const auto pixels =
-        composed(shown, canvas, panelRectsOf(canvas, shown.order.subject.settings.size, view, false), false);
+    const auto pixels = composed(
+        shown, canvas, panelRectsOf(canvas, shown.request.subject.settings.size, view, false), false);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x) {
             EXPECT_EQ(inCanvas(pixels, 8, x, y), inImage(shown.panels[1].image, x / 2, y / 2));

@@ -9,8 +9,8 @@ namespace {
 // A request of 8x8 pixels, shown with `side` of them in a row.
 DrawnView shownAs(std::uint64_t request, int side) {
     DrawnView shown;
-    shown.order.id = request;
-    shown.order.subject.settings.size = {8, 8};
+    shown.request.id = request;
+    shown.request.subject.settings.size = {8, 8};
     shown.size = {side, side};
     return shown;
 }

@@ -31,7 +31,7 @@ private:
 // The cursor may jump before the button goes down (touchpads): the jump drags nothing.
 TEST(Mouse, AnImageIsDraggedFromWhereTheButtonWentDown) {
     Hand hand;
-    hand.state.look.difference = Difference::absolute;
+    hand.state.view_options.difference = Difference::absolute;
     hand.state.canvas.zoom = 2;
     hand.state.canvas.centre_x = hand.state.canvas.centre_y = 50;
     hand.move(10, 10);

@@ -71,9 +71,9 @@ TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
     right.channels[Channel::lit].at(0, 0, 1) = 0.75f;   // + 0.25
     right.channels[Channel::lit].at(0, 0, 2) = 0.375f;  // - 0.125, smaller
     right.channels[Channel::lit].at(1, 0, 0) = 0.0f;    // - 0.5
-    LookOptions look;
-    look.difference = Difference::signed_difference;
-    const DifferencePanel panel = differenceOf(left, right, look);
+    ViewOptions view_options;
+    view_options.difference = Difference::signed_difference;
+    const DifferencePanel panel = differenceOf(left, right, view_options);
     EXPECT_EQ(panel.values.at(0, 0), 0.25f);
     EXPECT_EQ(panel.values.at(1, 0), -0.5f);
     EXPECT_TRUE(panel.is_signed);
@@ -85,56 +85,58 @@ TEST(ViewerDifference, SignedIsRightLessLeftWhereItIsLargest) {
 
 TEST(ViewerDifference, AbsoluteAndRelativeAreTheMetrics) {
     const Frame left = flatFrame(Path::deferred, 1, 1, 0.5f), right = flatFrame(Path::deferred, 1, 1, 0.75f);
-    LookOptions look;
-    look.difference = Difference::absolute;
-    EXPECT_EQ(differenceOf(left, right, look).values.at(0, 0), 0.25f);
-    look.difference = Difference::relative;
-    EXPECT_EQ(differenceOf(left, right, look).values.at(0, 0), 0.5f);
+    ViewOptions view_options;
+    view_options.difference = Difference::absolute;
+    EXPECT_EQ(differenceOf(left, right, view_options).values.at(0, 0), 0.25f);
+    view_options.difference = Difference::relative;
+    EXPECT_EQ(differenceOf(left, right, view_options).values.at(0, 0), 0.5f);
 }
 
 TEST(ViewerDifference, FlipIsOfColoursAndSaysSo) {
     Frame left = flatFrame(Path::deferred, 16, 16, 0.5f), right = flatFrame(Path::deferred, 16, 16, 0.25f);
-    LookOptions look;
-    look.difference = Difference::flip;
-    const DifferencePanel panel = differenceOf(left, right, look);
+    ViewOptions view_options;
+    view_options.difference = Difference::flip;
+    const DifferencePanel panel = differenceOf(left, right, view_options);
     EXPECT_TRUE(panel.missing.empty()) << panel.missing;
     EXPECT_EQ(panel.top, 1);
     EXPECT_GT(panel.values.at(8, 8), 0.05f);
     left.channels[Channel::normals] = Image(16, 16, 3, 0.5f);
     right.channels[Channel::normals] = Image(16, 16, 3, 0.5f);
-    look.mode = Channel::normals;
-    EXPECT_NE(differenceOf(left, right, look).missing.find("normals"), std::string::npos);
+    view_options.mode = Channel::normals;
+    EXPECT_NE(differenceOf(left, right, view_options).missing.find("normals"), std::string::npos);
 }
 
 TEST(ViewerDifference, WhatCannotBeComparedSaysWhy) {
-    LookOptions look;
-    look.difference = Difference::absolute;
-    EXPECT_NE(differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 3, 2, 0), look)
-                  .missing.find("2x2"),
-              std::string::npos);
-    look.mode = Channel::normals;
-    EXPECT_NE(differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 2, 2, 0), look)
-                  .missing.find("normals"),
-              std::string::npos);
+    ViewOptions view_options;
+    view_options.difference = Difference::absolute;
+    EXPECT_NE(
+        differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 3, 2, 0), view_options)
+            .missing.find("2x2"),
+        std::string::npos);
+    view_options.mode = Channel::normals;
+    EXPECT_NE(
+        differenceOf(flatFrame(Path::deferred, 2, 2, 0), flatFrame(Path::deferred, 2, 2, 0), view_options)
+            .missing.find("normals"),
+        std::string::npos);
 }
 
 // The panels equal the output of `render`.
 TEST(ViewerImages, AreImagesOfTheChannel) {
     Frame left = flatFrame(Path::deferred, 3, 2, 0.5f), right = flatFrame(Path::deferred, 3, 2, 0.25f);
     left.channels[Channel::material_id].at(2, 1) = -1;
-    LookOptions look;
-    look.exposure = 2;
+    ViewOptions view_options;
+    view_options.exposure = 2;
     DrawnView shown;
-    const Exposure exposure = exposureOf(left, right, look);
+    const Exposure exposure = exposureOf(left, right, view_options);
     EXPECT_EQ(exposure.factor, 2);
-    makeImages(left, right, look, exposure, shown);
+    makeImages(left, right, view_options, exposure, shown);
     const Frame* frames[] = {&left};
     EXPECT_EQ(shown.panels[0].image.data,
               channelImage(debugMode(Channel::lit), left, scaleFor(debugMode(Channel::lit), exposure, frames))
                   .data);
     EXPECT_FALSE(shown.difference);
-    look.mode = Channel::normals;
-    makeImages(left, right, look, exposure, shown);
+    view_options.mode = Channel::normals;
+    makeImages(left, right, view_options, exposure, shown);
     EXPECT_FALSE(shown.panels[0].missing.empty());
     EXPECT_TRUE(shown.panels[0].image.data.empty());
 }
@@ -224,13 +226,13 @@ TEST(ViewerSettings, SizeStopsFollowingTheWindow) {
 
 // As in the original projects: the heat map replaces the channel, which returns without it.
 TEST(ViewerLook, TheHeatMapTakesPrecedenceOverTheChannel) {
-    LookOptions look;
+    ViewOptions view_options;
     for (const DebugMode& mode : debugModes()) {
-        look.mode = mode.channel;
-        look.heat = true;
-        EXPECT_EQ(look.channel(), Channel::light_count) << mode.name;
-        look.heat = false;
-        EXPECT_EQ(look.channel(), mode.channel);
+        view_options.mode = mode.channel;
+        view_options.heat = true;
+        EXPECT_EQ(view_options.channel(), Channel::light_count) << mode.name;
+        view_options.heat = false;
+        EXPECT_EQ(view_options.channel(), mode.channel);
     }
 }
 
@@ -238,15 +240,15 @@ TEST(ViewerCommands, SayTheWholeView) {
     InterfaceState state;
     state.subject.scene = "a b.glb";
     state.subject.settings.camera = "eye=1,2,3 target=0,0,0";
-    state.look.mode = Channel::normals;
+    state.view_options.mode = Channel::normals;
     EXPECT_EQ(renderCommand(state),
               "diptych render --debug normals --camera 'eye=1,2,3 target=0,0,0' 'a b.glb'");
-    state.look.mode = Channel::lit;
-    state.look.exposure = 0.5;
-    state.look.tonemap = false;
+    state.view_options.mode = Channel::lit;
+    state.view_options.exposure = 0.5;
+    state.view_options.tonemap = false;
     EXPECT_EQ(renderCommand(state),
               "diptych render --no-tonemap --exposure 0.5 --camera 'eye=1,2,3 target=0,0,0' 'a b.glb'");
-    state.look.against = Against::reference;
+    state.view_options.against = Against::reference;
     EXPECT_EQ(compareCommand(state),
               "diptych compare --baseline reference --camera 'eye=1,2,3 target=0,0,0' 'a b.glb'");
 }
