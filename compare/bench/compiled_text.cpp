@@ -110,8 +110,8 @@ std::string compiledText(std::span<const CompiledPath> paths, const DeviceInfo& 
                 continue;
             }
             text += fmt::format(" | {:>10}", cell.pipelines);
-            for (const ShaderCostRow& said : shaderCostRows())
-                if (said.shown) text += fmt::format("{:>10}", numberOr(cell.heaviest.*said.value, "-"));
+            for (const ShaderCostRow& row : shaderCostRows())
+                if (row.shown) text += fmt::format("{:>10}", numberOr(cell.heaviest.*row.value, "-"));
         }
         while (text.ends_with(' ')) text.pop_back();
         text += '\n';

@@ -55,10 +55,10 @@ double imageMib(const BenchRow& row) {
 
 std::vector<std::string> memoryText(const SampleTable& table) {
     std::vector<std::string> lines;
-    std::vector<Path> told;
+    std::vector<Path> listed;
     for (const SampleTable::Line& line : table.lines) {
-        if (std::ranges::count(told, line.path) > 0) continue;
-        told.push_back(line.path);
+        if (std::ranges::count(listed, line.path) > 0) continue;
+        listed.push_back(line.path);
         std::vector<std::string> samples, bytes, mib;
         for (const auto& [count, row] : line.cells) {
             samples.push_back(fmt::format("{}", count));

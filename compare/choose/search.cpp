@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    void say(double done, std::string_view what) const {
+    void reportProgress(double done, std::string_view what) const {
         if (options_.progress) options_.progress(done, what);
     }
     void evaluate(std::size_t i) {
@@ -111,7 +111,7 @@ private:
 
     void measureTable() {
         for (std::size_t from = 0; from < all_.size(); from += timedTogether) {
-            say(0.7 * static_cast<double>(from) / static_cast<double>(all_.size()), "table");
+            reportProgress(0.7 * static_cast<double>(from) / static_cast<double>(all_.size()), "table");
             std::vector<std::size_t> together;
             for (std::size_t i = from; i < std::min(from + timedTogether, all_.size()); ++i)
                 together.push_back(i);
@@ -263,7 +263,8 @@ private:
                 all_.push_back({{.settings = *made}});
             }
             if (tried.empty()) return;
-            say(0.7 + 0.2 * (1 - std::exp(-0.05 * static_cast<double>(all_.size() - known_))), "changes");
+            reportProgress(0.7 + 0.2 * (1 - std::exp(-0.05 * static_cast<double>(all_.size() - known_))),
+                           "changes");
             measureTried(tried, best);
             for (const std::size_t i : tried) learnFrom(best, i);
             const std::size_t now = bestOf(path);
@@ -311,7 +312,7 @@ private:
     void timeAgain(const std::vector<std::size_t>& which) {
         std::vector<Settings> frames;
         for (const std::size_t i : which) frames.push_back(all_[i].settings);
-        say(0.9, "the finalists again");
+        reportProgress(0.9, "the finalists again");
         const Ranking result = rankByTime(which.size(), [&](std::span<const std::size_t> order) {
             for (const std::size_t k : order) ++all_[which[k]].timings;
             return evaluator_.time(frames, order);

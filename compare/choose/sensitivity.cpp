@@ -109,17 +109,17 @@ Sensitivities analyzeSensitivity(const DrawInOrder& asIs, std::vector<Property> 
         sensitivities.frames += 4 * static_cast<std::size_t>(rounds);
         return timedValue(variation, rounds);
     };
-    const auto say = [&](std::string_view what) {
+    const auto reportProgress = [&](std::string_view what) {
         if (progress) progress(static_cast<double>(done++) / static_cast<double>(all), what);
     };
-    say("sensitivity");
+    reportProgress("sensitivity");
     sensitivities.as_is = measure({0, asIs});
     for (Property& property : properties) {
         PropertySensitivity sensitivity;
         sensitivity.times.push_back(sensitivities.as_is);
         sensitivity.times.back().value = property.value;
         for (const auto& make : property.others) {
-            say(property.name);
+            reportProgress(property.name);
             // A variation may exceed the device's limits, for example twice the size. Keep the choice.
             try {
                 sensitivity.times.push_back(measure(make()));

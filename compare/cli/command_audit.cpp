@@ -125,7 +125,7 @@ struct AuditOpening {
           subject(audit::makeSubject(scene, settings)),
           audited{options.scenes.front(), settings.camera.empty() ? subject.view_name : settings.camera,
                   settings, reportDevice(device), scene.notes} {
-        say(options, "on " + device.info().name);
+        logVerbose(options, "on " + device.info().name);
         // An audit keeps up to six reference Frames at a time.
         const std::vector<Settings> references(6, referenceSettings(settings));
         RenderOptions drawing;
@@ -170,12 +170,12 @@ int auditQuantities(const AuditLine& options, const Settings& settings) {
             "--shadows off, except for shadow quantities: a shadow filter's error would hide other errors");
     const audit::AuditQuestion question = questionOf(options, opened.out);
     audit::Auditor auditor(question, std::move(audited), opened.subject, opened.device,
-                           [&](const std::string& step) { say(options, step); });
+                           [&](const std::string& step) { logVerbose(options, step); });
     if (auditor.isRenewed())
         note(
             options,
             "the results of an interrupted audit belong to another scene, device or Settings; starting anew");
-    sayWhenInterrupted("finished steps are kept: the same command continues from there");
+    setInterruptionMessage("finished steps are kept: the same command continues from there");
     auditor.measure(opened.stage, [&](const audit::QuantityAudit& quantity) {
         opened.print(output::inText(audit::blocksOf(quantity)));
     });
@@ -198,7 +198,7 @@ int auditRelations(const AuditLine& options, const Settings& settings) {
     if (!options.shadows_requested)
         audited.notes.emplace_back("--shadows off: most relations do not test shadow maps");
     audit::RelationMeasurer measurer(opened.device, opened.subject,
-                                     [&](const std::string& step) { say(options, step); });
+                                     [&](const std::string& step) { logVerbose(options, step); });
     for (const std::string& left : measurer.leftOut()) audited.notes.push_back("not drawn: " + left);
     const auto all = audit::relationsOf(options.chosen_relations);
     for (std::size_t i = 0; i < all.size(); ++i) {

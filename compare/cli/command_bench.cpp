@@ -111,7 +111,7 @@ int runBench(const BenchLine& options) {
     std::optional<RegisterCounter> registers;
     if (!options.compile_on.empty()) registers.emplace(options.compile_on, deviceOptions(options));
     Device device(deviceOptions(options));
-    say(options, "on " + device.info().name);
+    logVerbose(options, "on " + device.info().name);
     Bench bench{subjectOf(options, requested.table),
                 requested,
                 reportDevice(device),

@@ -112,7 +112,7 @@ int runChoose(const ChooseLine& options) {
     const Question question = questionOf(options);
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
-    say(options, "on " + device.info().name);
+    logVerbose(options, "on " + device.info().name);
     SceneChooser chooser(question, device, progress);
     Choices choices;
     const auto tell = [&](const std::string& text) {

@@ -120,7 +120,7 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     const std::unique_ptr<Device> other = againstDevice(options);
-    say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
+    logVerbose(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
     ReferenceCheckpoints kept(folder, true);
     RenderOptions render = evaluatedOptions(renderOptions(options), settings, isTraced(settings, baseline),
                                             other != nullptr, options.twice);
@@ -165,7 +165,7 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
         fmt::format("{}{}pictures: {}\nreport: {}\n", reportTable(report), sinceText(since.get(), report),
                     exposureLine(report, image), (folder / "index.html").string()));
     if (!updated.empty()) note(options, updated);
-    sayErrors(report.errors);
+    printFirstError(report.errors);
     // The new baseline replaces the old one, so only the last comparison counts.
     const bool passed = options.update_baseline ? report.comparisons.back().passed() : report.passed();
     return exitCode(passed, !report.errors.empty());

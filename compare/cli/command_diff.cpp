@@ -156,7 +156,7 @@ int runDiff(const DiffLine& options) {
         writeDiffErrors(diff.images.front(), *output);
     progress.wipe();
     printResult(options, text, text);
-    sayErrors(diff.errors);
+    printFirstError(diff.errors);
     return exitCode(passed, !diff.errors.empty());
 }
 

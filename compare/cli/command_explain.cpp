@@ -172,7 +172,7 @@ int explainScene(const ExplainLine& options) {
     Device device(deviceOptions(options));
     of.device = device.info().name;
     const std::unique_ptr<Device> other = againstDevice(options);
-    say(options, "on " + of.device + (other ? " and " + other->info().name : ""));
+    logVerbose(options, "on " + of.device + (other ? " and " + other->info().name : ""));
     SceneViews views(scene);
     Renderer renderer(device, views);
     RenderOptions drawing = renderOptions(options);
@@ -265,7 +265,7 @@ int explainFiles(const ExplainLine& options) {
     const Scene scene = loadSceneWithSettings(where, a.settings, stage.part(0, 0.3));
     Device device(deviceOptions(options));
     of.device = device.info().name;
-    say(options, "on " + of.device);
+    logVerbose(options, "on " + of.device);
     SceneViews views(scene);
     Renderer renderer(device, views);
     const Explanation explanation = explain(device, renderer, scene, a, b, stage.part(0.3, 1));

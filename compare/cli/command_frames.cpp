@@ -133,7 +133,7 @@ private:
                  frame.time.runs > 0 ? "" : "rendered in ", ms);
         if (index == 0 && output_.kind != OutputKind::exr) printOut("  picture: {}\n", exposure_line_);
         for (const std::string& line : frame.notes)
-            if (said_.insert(withoutNumbers(line)).second) printOut("  note: {}\n", line);
+            if (printed_notes_.insert(withoutNumbers(line)).second) printOut("  note: {}\n", line);
         flushText();
     }
 
@@ -146,7 +146,7 @@ private:
     std::optional<OutputFolder> folder_;
     std::vector<std::string> files_;  // within folder_
     std::string exposure_line_;
-    std::set<std::string> said_;  // printed notes, without their numbers
+    std::set<std::string> printed_notes_;  // printed notes, without their numbers
 };
 
 // Renders one Frame at a time from one upload of the scene.
@@ -179,7 +179,7 @@ int runFrames(const RenderLine& options) {
     if (needsDevice(settings)) device.emplace(deviceOptions(options));
     const ReportDevice made = reportDeviceOf(device);
     FrameWriter writer(options, made);
-    say(options, "on " + made.name);
+    logVerbose(options, "on " + made.name);
 
     const std::string& name = options.scenes.front();
     RenderOptions render = renderOptions(options);
@@ -187,7 +187,7 @@ int runFrames(const RenderLine& options) {
     const Stage stage(progress, name);
     const auto frames = static_cast<std::size_t>(options.frames);
     const double loading = loadingFraction(name, render, frames);
-    say(options, name);
+    logVerbose(options, name);
     const Scene scene = loadSceneWithSettings(name, options.settings, stage.part(0, loading));
     FrameSource source(scene, device ? &*device : nullptr);
     for (int i = 0; i < options.frames; ++i) {

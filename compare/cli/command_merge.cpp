@@ -55,10 +55,10 @@ int runMerge(const MergeLine& options) {
     writeWhole(joined.report, whole, folder, report);
     showWhole(options, whole, folder, report.since.get(), false);
     if (joined.problems.empty()) {
-        sayErrors(whole.report.errors);
+        printFirstError(whole.report.errors);
         return exitCode(whole.report.passed(), !whole.report.errors.empty());
     }
-    sayProblems(options, joined.problems, folder / "index.html");
+    printIncomplete(options, joined.problems, folder / "index.html");
     return exit_error;
 }
 

@@ -47,7 +47,7 @@ int runPixel(const CompareLine& options) {
     const Stage stage(progress, where);
     const Scene scene = loadSceneWithSettings(where, options.settings, stage.part(0, 0.1));
     Device device(deviceOptions(options));
-    say(options, "on " + device.info().name);
+    logVerbose(options, "on " + device.info().name);
     SceneViews views(scene);
     Renderer renderer(device, views);
     const std::vector<Rule> rules = rulesOfScene(compare.rules, where);

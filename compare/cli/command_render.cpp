@@ -56,7 +56,7 @@ std::vector<Frame> drawAll(const RenderLine& options, const std::vector<Settings
     const auto scenes = static_cast<double>(options.scenes.size());
     for (std::size_t i = 0; i < options.scenes.size(); ++i) {
         const std::string& name = options.scenes[i];
-        say(options, name);
+        logVerbose(options, name);
         const auto done = static_cast<double>(i);
         const Stage stage = Stage(progress, name).part(drawn * done / scenes, drawn * (done + 1) / scenes);
         const double loading = loadingFraction(name, render, settings.size());
@@ -127,7 +127,7 @@ int runRender(const RenderLine& options) {
     std::optional<Device> device;
     if (std::ranges::any_of(settings, needsDevice)) device.emplace(deviceOptions(options));
     const ReportDevice made = reportDeviceOf(device);
-    say(options, "on " + made.name);
+    logVerbose(options, "on " + made.name);
     Json result = resultOf(made);
     // Render everything before writing, so that an unreadable scene leaves no partial folder.
     ReferenceCheckpoints kept(output.path, output.kind == OutputKind::folder);

@@ -70,14 +70,14 @@ int sweepOne(const TradeoffLine& options, const experiment::SweepRows& rows) {
                            options.grid.empty(),   renderOptions(options), imageChoice(options), folder};
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
-    say(options, "on " + device.info().name);
+    logVerbose(options, "on " + device.info().name);
     Sweep sweep(std::move(question), device, Stage(progress, options.scenes.front()));
     if (sweep.isRenewed())
         note(
             options,
             "the results of an interrupted sweep belong to another scene, device or Settings; starting anew");
-    sayWhenInterrupted(fmt::format("finished rows are kept in {}: the same command continues from there",
-                                   SweepState::folderOf(folder).string()));
+    setInterruptionMessage(fmt::format("finished rows are kept in {}: the same command continues from there",
+                                       SweepState::folderOf(folder).string()));
     const auto print = [&](const std::string& text) { printLive(options, progress, text); };
     const TradeoffTable table(sweep.tradeoff(), sweep.rows(), terminalColumns(stdout), options.verbose);
     // Once a minute, somebody who watches sees the fronts so far.
@@ -98,7 +98,7 @@ int sweepOne(const TradeoffLine& options, const experiment::SweepRows& rows) {
     noteLeftByOthers(options, sweep.referenceCheckpoints());
     if (options.json) printText(json);
     print(tradeoffEnd(sweep.tradeoff()) + (folder / "index.html").string() + "\n");
-    sayErrors(errors);
+    printFirstError(errors);
     return exitCode(true, !errors.empty());
 }
 
@@ -133,7 +133,7 @@ OpenFolder heldOutput(const fs::path& folder) {
 int finish(const OutputGroup& options, const fs::path& folder, const shards::Manifest& manifest,
            const std::vector<const shards::Item*>& done) {
     showMany(options, folder, manifest, done);
-    sayErrors(manifest.errors);
+    printFirstError(manifest.errors);
     return exitCode(true, !manifest.errors.empty());
 }
 
@@ -168,7 +168,7 @@ int tradeoffMany(const TradeoffLine& options, const fs::path& folder, const expe
         });
         if (!error) continue;
         manifest.errors.push_back(*error);
-        say(options, fmt::format("{}; continuing with the other scenes", error->message));
+        logVerbose(options, fmt::format("{}; continuing with the other scenes", error->message));
     }
     if (done.empty() && !manifest.errors.empty() && options.shard.empty())
         refuse("none of {} can be rendered; the first: {}", counted(items.all.size(), "scene"),
@@ -229,7 +229,7 @@ int mergeTradeoffs(const OutputGroup& options, const std::vector<std::string>& s
     const shards::Manifest manifest = chosen.manifest;
     if (chosen.problems.empty()) return finish(options, folder, manifest, done);
     showMany(options, folder, manifest, done);
-    sayProblems(options, chosen.problems, folder / "index.html");
+    printIncomplete(options, chosen.problems, folder / "index.html");
     return exit_error;
 }
 

@@ -183,12 +183,12 @@ int runView(const ViewLine& requested) {
     if (std::filesystem::is_directory(view.subject.scene))
         refuse("{}: is a folder; view shows one scene, so give a .gltf or .glb file", view.subject.scene);
     checkScene(view.subject.scene, view.subject.settings.variant);
-    say(options, "on " + Device(deviceOptions(options)).info().name);
+    logVerbose(options, "on " + Device(deviceOptions(options)).info().name);
     view.watch = options.watch;
     view.out = options.out;
     view.device = deviceOptions(options);
     view.compare = compareOptions(options);
-    view.say = [&](const std::string& line) { say(options, "view: " + line); };
+    view.log = [&](const std::string& line) { logVerbose(options, "view: " + line); };
     const viewer::ViewerResult result = viewer::runViewer(view);
     if (result.validation_messages > 0)
         refuse("--validate: {}, the first: {}", counted(result.validation_messages, "message"),

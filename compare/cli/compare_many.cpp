@@ -49,17 +49,18 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
         folder,
         resumeKey(options, asked),
         [&](const std::string& line) { note(options, line); },
-        [&](const std::string& line) { say(options, line); }};
+        [&](const std::string& line) { logVerbose(options, line); }};
     const shards::SceneItems items = itemsOf(options, asked);
     Progress progress(progressOutput(options));
     Device device(deviceOptions(options));
     const std::unique_ptr<Device> other = againstDevice(options);
-    say(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
+    logVerbose(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
     shards::Collection collection(question, items, device, other.get(), progress);
-    sayWhenInterrupted(fmt::format("finished scenes are kept in {}: the same command continues from there",
-                                   collection.checkpointedIn().string()));
+    setInterruptionMessage(
+        fmt::format("finished scenes are kept in {}: the same command continues from there",
+                    collection.checkpointedIn().string()));
     collection.compareAll();
-    sayWhenInterrupted("");
+    setInterruptionMessage("");
     WholeReport whole = collection.whole();
     if (whole.parts.empty() && options.shard.empty())
         refuse("none of {} can be rendered; the first: {}", counted(items.all.size(), "scene"),
@@ -75,7 +76,7 @@ int compareMany(const CompareLine& options, const std::vector<Settings>& setting
     progress.wipe();
     noteLeftByOthers(options, ReferenceCheckpoints(folder, true));
     showWhole(options, joined, folder, report.since.get(), true);
-    sayErrors(joined.report.errors);
+    printFirstError(joined.report.errors);
     return exitCode(joined.report.passed(), !joined.report.errors.empty());
 }
 

@@ -75,21 +75,21 @@ void note(const OutputGroup& options, const std::string& line) {
     printMessage(line);
 }
 
-void say(const OutputGroup& options, const std::string& line) {
+void logVerbose(const OutputGroup& options, const std::string& line) {
     if (options.verbose) note(options, line);
 }
 
-void sayErrors(const std::vector<SceneError>& errors) {
+void printFirstError(const std::vector<SceneError>& errors) {
     if (errors.empty()) return;
     wipeProgress();
     printMessage(errorText(errors.front()) +
                  (errors.size() == 1 ? "" : fmt::format("; and {} more", errors.size() - 1)));
 }
 
-void sayProblems(const OutputGroup& options, const std::vector<std::string>& problems,
-                 const std::filesystem::path& page) {
-    for (std::size_t i = 1; i < problems.size(); ++i) say(options, problems[i]);
-    sayErrors(
+void printIncomplete(const OutputGroup& options, const std::vector<std::string>& problems,
+                     const std::filesystem::path& page) {
+    for (std::size_t i = 1; i < problems.size(); ++i) logVerbose(options, problems[i]);
+    printFirstError(
         {{"",
           fmt::format("{}{}; {} shows the results so far", problems.front(),
                       problems.size() == 1 ? "" : fmt::format(" (and {} more, see -v)", problems.size() - 1),

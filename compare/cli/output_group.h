@@ -77,15 +77,15 @@ std::filesystem::path outputFolder(const OutputGroup& options, const char* name,
 // stderr; empty with --quiet.
 std::optional<ProgressOutput> progressOutput(const OutputGroup& options);
 
-// Print a line on stderr: note() unless --quiet is given, say() only with --verbose.
+// Print a line on stderr: note() unless --quiet is given, logVerbose() only with --verbose.
 void note(const OutputGroup& options, const std::string& line);
-void say(const OutputGroup& options, const std::string& line);
+void logVerbose(const OutputGroup& options, const std::string& line);
 
 // Prints the first error, one line on stderr, even with --quiet. For results with exit code 2.
-void sayErrors(const std::vector<SceneError>& errors);
+void printFirstError(const std::vector<SceneError>& errors);
 // Prints why a merge is incomplete: the first problem on a line of its own, all of them with -v.
-void sayProblems(const OutputGroup& options, const std::vector<std::string>& problems,
-                 const std::filesystem::path& page);
+void printIncomplete(const OutputGroup& options, const std::vector<std::string>& problems,
+                     const std::filesystem::path& page);
 
 // Prints text for people on stdout, in colour if --color or the terminal allows it.
 void printColored(const OutputGroup& options, const std::string& text);

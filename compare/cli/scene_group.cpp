@@ -297,7 +297,7 @@ RenderOptions renderOptions(const SceneGroup& options) {
         for (const DebugMode& mode : debugModes()) render.channels.push_back(mode.channel);
     render.requested = render.channels;
     render.runs = options.runs;
-    render.on_step = [&options](const std::string& step) { say(options, step); };
+    render.on_step = [&options](const std::string& step) { logVerbose(options, step); };
     return render;
 }
 

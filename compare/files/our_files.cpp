@@ -23,10 +23,11 @@ nlohmann::json ourJson(const fs::path& file) {
         nlohmann::json json = jsonIn(file, [](int depth, const std::string& key) {
             return depth > 1 || key == "software" || key == "schema" || key == "files";
         });
-        const auto says = [&](const char* key, const auto& value) {
+        const auto contains = [&](const char* key, const auto& value) {
             return json.contains(key) && json[key] == value;
         };
-        if (json.is_object() && says("software", softwareName) && (says("schema", 1) || says("schema", 2)))
+        if (json.is_object() && contains("software", softwareName) &&
+            (contains("schema", 1) || contains("schema", 2)))
             return json;
     } catch (const std::runtime_error&) {  // unreadable or malformed
     }
@@ -69,11 +70,11 @@ bool isOurImage(const fs::path& file) {
     } catch (const std::runtime_error&) {
         return false;
     }
-    const auto says = [&](const std::string& magic, const std::string& software) {
+    const auto contains = [&](const std::string& magic, const std::string& software) {
         return head.starts_with(magic) && head.find(software + softwareName) != std::string::npos;
     };
-    return says("\x76\x2f\x31\x01"s, "software\0string\0\7\0\0\0"s) ||
-           says("\x89PNG\r\n\x1a\n"s, "\0\0\0\x10tEXtSoftware\0"s);
+    return contains("\x76\x2f\x31\x01"s, "software\0string\0\7\0\0\0"s) ||
+           contains("\x89PNG\r\n\x1a\n"s, "\0\0\0\x10tEXtSoftware\0"s);
 }
 
 bool isOurManifest(const fs::path& file) {

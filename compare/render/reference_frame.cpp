@@ -232,14 +232,14 @@ ReferenceCheckpoints::ReferenceCheckpoints(const fs::path& output, bool isFolder
 reference::Checkpoint& ReferenceCheckpoints::open(std::uint64_t key, std::size_t floats) {
     if (is_folder_) OpenFolder::made(stem_.parent_path());  // Checkpoint reports a failure
     checkpoints_.push_back(std::make_unique<reference::Checkpoint>(stem_, key, floats));
-    sayWhenInterrupted(
+    setInterruptionMessage(
         fmt::format("the finished part of the reference is kept in {}: the same command resumes there",
                     checkpoints_.back()->file().string()));
     return *checkpoints_.back();
 }
 
 void ReferenceCheckpoints::remove() {
-    sayWhenInterrupted({});
+    setInterruptionMessage({});
     for (const auto& checkpoint : checkpoints_) checkpoint->remove();
 }
 

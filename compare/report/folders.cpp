@@ -130,7 +130,7 @@ ReportFolders reportFolders(const Report& report, const std::optional<std::strin
             scene_folder ? scene_folder->substr(0, scene_folder->size() - 1) : sceneFolder(frame.scene);
         if (!frame.settings.camera.empty())
             name += "/" + nameOfFolder(frame.settings.camera, frame.settings.camera);
-        if (saysTime(report, frame)) name += "/" + timeFolder(frame.settings.time);
+        if (namesTime(report, frame)) name += "/" + timeFolder(frame.settings.time);
         if (const int again = ++asked[name]; again > 1) name += fmt::format("-{}", again);
         name += "/";
     }

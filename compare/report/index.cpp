@@ -32,7 +32,7 @@ std::string rowTitle(const Report& report, const Comparison& comparison) {
     const Frame& frame = report.baseline(comparison);
     if (!hasMultiplePairs(report)) return viewTitle(report, frame);
     const std::string pair = pairTitle(report, comparison);
-    return saysTime(report, frame) ? fmt::format("{}, {} s", pair, frame.settings.time) : pair;
+    return namesTime(report, frame) ? fmt::format("{}, {} s", pair, frame.settings.time) : pair;
 }
 
 // The first metric that moved; a tooltip lists all.
@@ -61,7 +61,7 @@ output::Table tableOf(const Report& report, const ReportLayout& layout, const Re
     const std::vector<Comparison>& all = report.comparisons;
     const bool pairs = hasMultiplePairs(report);
     const bool times =
-        std::ranges::any_of(all, [&](const Comparison& c) { return saysTime(report, report.baseline(c)); });
+        std::ranges::any_of(all, [&](const Comparison& c) { return namesTime(report, report.baseline(c)); });
     output::Table table{.columns = {}, .sortable = true, .style = "", .box = "box scroll"};
     const auto add = [&](Column column, const auto& cellOf) {
         addColumn(table, std::move(column), layout.order, cellOf);

@@ -101,7 +101,7 @@ private:
         };
         add("scene", left_.scene);
         add("camera", cameraTitle(left_));
-        if (saysTime(report_, left_)) add("time", left_.settings.valueOf("time"));
+        if (namesTime(report_, left_)) add("time", left_.settings.valueOf("time"));
         add("size", left_.settings.valueOf("size"));
         if (left_.origin.file.empty()) add("gbuffer", left_.settings.valueOf("gbuffer"));
         add("baseline", left_.name);

@@ -22,7 +22,7 @@ std::string pairTitle(const Report& report, const Comparison& comparison) {
     return fmt::format("{} against {}", report.test(comparison).name, report.baseline(comparison).name);
 }
 
-bool saysTime(const Report& report, const Frame& frame) {
+bool namesTime(const Report& report, const Frame& frame) {
     return frame.settings.time != 0 || std::ranges::any_of(report.comparisons, [&](const Comparison& other) {
                return report.test(other).settings.time != frame.settings.time;
            });
@@ -30,7 +30,7 @@ bool saysTime(const Report& report, const Frame& frame) {
 
 std::string viewTitle(const Report& report, const Frame& frame) {
     const std::string camera = page::cameraTitle(frame);
-    return saysTime(report, frame) ? fmt::format("{}, {} s", camera, frame.settings.time) : camera;
+    return namesTime(report, frame) ? fmt::format("{}, {} s", camera, frame.settings.time) : camera;
 }
 
 std::string folderOfAll(const Report& report) {

@@ -19,8 +19,8 @@ std::string pairTitle(const Report& report, const Comparison& comparison);
 
 // Whether titles and folders name the Frame's animation time: if it is not 0 s, or the report has several
 // times.
-bool saysTime(const Report& report, const Frame& frame);
-// Camera and, if saysTime(), time: "default view", "entrance, 0.5 s".
+bool namesTime(const Report& report, const Frame& frame);
+// Camera and, if namesTime(), time: "default view", "entrance, 0.5 s".
 std::string viewTitle(const Report& report, const Frame& frame);
 
 // The common folder of all scenes, or of the files that diff compared; pages omit it.

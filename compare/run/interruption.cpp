@@ -104,7 +104,7 @@ void killTree(pid_t supervisor) {
 
 }  // namespace
 
-void sayWhenInterrupted(const std::string& line) {
+void setInterruptionMessage(const std::string& line) {
     const std::lock_guard lock(lastMessageMutex);
     lastMessage = line;
 }

@@ -12,7 +12,7 @@ namespace diptych {
 void watchInterruption();
 
 // Sets the line that an interruption prints on stderr; empty: none. Thread-safe.
-void sayWhenInterrupted(const std::string& line);
+void setInterruptionMessage(const std::string& line);
 
 // While an object exists, an interruption first ends the processes under `supervisor`, a child of this
 // process. Otherwise they could write into folders that are being removed. The supervisor ends when its

@@ -73,7 +73,7 @@ void Collection::findCheckpoint() {
 void Collection::attempt(const Item* item, const std::function<void()>& work) {
     if (const std::optional<SceneError> error = shards::attempt(item->scene, work)) {
         errors_.emplace(item, *error);
-        question_.say(fmt::format("{}; continuing with the other scenes", error->message));
+        question_.log_verbose(fmt::format("{}; continuing with the other scenes", error->message));
     }
 }
 
@@ -100,7 +100,7 @@ void Collection::compareAll() {
     if (!left.empty()) next = load(0);
     for (std::size_t i = 0; i < left.size(); ++i, ++done) {
         const Item* item = left[i];
-        question_.say(item->scene);
+        question_.log_verbose(item->scene);
         const Stage stage = Stage(progress_, item->scene).part(0.99 * done / all, 0.99 * (done + 1) / all);
         stage.at(0, "load");
         attempt(item, [&] {

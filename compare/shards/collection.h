@@ -29,10 +29,10 @@ struct CollectionQuestion {
     RenderOptions drawing;
     ExplanationQuestion explanation;
     ReportOptions report;
-    std::filesystem::path folder;                   // of the output
-    nlohmann::ordered_json key;                     // of kept parts
-    std::function<void(const std::string&)> note;   // a line for the user
-    std::function<void(const std::string&)> say{};  // with -v
+    std::filesystem::path folder;                           // of the output
+    nlohmann::ordered_json key;                             // of kept parts
+    std::function<void(const std::string&)> note;           // a line for the user
+    std::function<void(const std::string&)> log_verbose{};  // with -v
 };
 
 // Keeps a report part beside the output after each scene. A scene that cannot be read or rendered is an

@@ -21,8 +21,8 @@ bool isWhole(const DrawnView& shown) {
     return shown.size == shown.request.subject.settings.size;
 }
 
-Latencies::Latencies(std::function<void(const std::string&)> say, Clock::time_point begun)
-    : say_(std::move(say)), begun_(begun) {}
+Latencies::Latencies(std::function<void(const std::string&)> report, Clock::time_point begun)
+    : report_(std::move(report)), begun_(begun) {}
 
 void Latencies::pressed(std::string_view key, std::uint64_t request) {
     waiting_.push_back({std::string(key), Clock::now(), 0, request});
@@ -35,18 +35,18 @@ void Latencies::asked(std::uint64_t request) {
 
 void Latencies::seen(const DrawnView& shown, std::uint64_t request) {
     const Clock::time_point now = Clock::now();
-    const auto sayImage = [&](bool& said, std::string_view what) {
-        if (std::exchange(said, true)) return;
-        say_(fmt::format("{} after {:.2f} s, {}x{}", what, secondsFrom(begun_, now), shown.size.width,
-                         shown.size.height));
+    const auto reportImage = [&](bool& reported, std::string_view what) {
+        if (std::exchange(reported, true)) return;
+        report_(fmt::format("{} after {:.2f} s, {}x{}", what, secondsFrom(begun_, now), shown.size.width,
+                            shown.size.height));
     };
-    sayImage(said_first_, "first picture");
-    if (isWhole(shown)) sayImage(said_whole_, "first whole picture");
+    reportImage(reported_first_, "first picture");
+    if (isWhole(shown)) reportImage(reported_whole_, "first whole picture");
     std::erase_if(waiting_, [&](const Waiting& waiting) {
         if (waiting.request == 0 ? request != waiting.before : shown.request.id < waiting.request)
             return false;
-        say_(fmt::format("key {}: seen after {:.0f} ms, {}x{}", waiting.key,
-                         1000 * secondsFrom(waiting.pressed, now), shown.size.width, shown.size.height));
+        report_(fmt::format("key {}: seen after {:.0f} ms, {}x{}", waiting.key,
+                            1000 * secondsFrom(waiting.pressed, now), shown.size.width, shown.size.height));
         return true;
     });
 }
@@ -64,9 +64,9 @@ double Latencies::percentileOf(double fraction) const {
     return sorted[static_cast<std::size_t>(rank)];
 }
 
-void Latencies::sayFrames() const {
+void Latencies::reportFrames() const {
     if (!frames_.empty())
-        say_(fmt::format(
+        report_(fmt::format(
             "interface: {} frames, median {:.1f} ms, 99th percentile {:.1f} ms, longest {:.1f} ms",
             frames_.size(), percentileOf(0.5), percentileOf(0.99), percentileOf(1)));
 }

@@ -22,7 +22,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     // `say` receives each timing as a line; times of the first images count from `begun`.
-    Latencies(std::function<void(const std::string&)> say, Clock::time_point begun);
+    Latencies(std::function<void(const std::string&)> report, Clock::time_point begun);
 
     // A key was pressed; `request` is the latest request, 0: none.
     void pressed(std::string_view key, std::uint64_t request);
@@ -35,7 +35,7 @@ public:
     void frame(double ms);
     // 99th percentile of its frames, ms; 0 before the first 30.
     double percentile() const { return percentile_; }
-    void sayFrames() const;
+    void reportFrames() const;
 
 private:
     struct Waiting {
@@ -47,9 +47,9 @@ private:
     };
     double percentileOf(double fraction) const;
 
-    std::function<void(const std::string&)> say_;
+    std::function<void(const std::string&)> report_;
     Clock::time_point begun_;
-    bool said_first_ = false, said_whole_ = false;
+    bool reported_first_ = false, reported_whole_ = false;
     std::vector<Waiting> waiting_;
     std::vector<double> frames_;  // ms
     double percentile_ = 0;

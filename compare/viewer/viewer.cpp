@@ -49,7 +49,7 @@ public:
     explicit Viewer(const ViewerOptions& options)
         : options_(options),
           window_(defaultWidth, defaultHeight, "Diptych"),
-          screen_(window_, options.device.validate, [this](const std::string& line) { say(line); }),
+          screen_(window_, options.device.validate, [this](const std::string& line) { log(line); }),
           drawing_({options.device, options.compare, Window::wake}) {
         state_.subject = options.subject;
         if (isReference(state_.subject.settings.path)) state_.subject.settings.path = drawn_paths[1];
@@ -98,7 +98,7 @@ public:
             }
             last_ = now_;
         }
-        latencies_.sayFrames();
+        latencies_.reportFrames();
         ViewerResult result{drawing_.validationMessages() + screen_.log().messages,
                             drawing_.firstValidationMessage()};
         if (result.first_validation_message.empty()) result.first_validation_message = screen_.log().first;
@@ -119,14 +119,14 @@ private:
         return idlePause;
     }
 
-    void say(const std::string& line) const {
-        if (options_.say) options_.say(line);
+    void log(const std::string& line) const {
+        if (options_.log) options_.log(line);
     }
     void tell(const std::string& message) {
         state_.message = message;
         state_.message_until = ImGui::GetTime() + 6;
         frames_left_ = 3;
-        say(message);
+        log(message);
     }
 
     // ---- results of the drawing thread ----------------------------------------------------------------
@@ -146,10 +146,10 @@ private:
                           next.status.doing != contents_.status.doing ||
                           std::abs(next.status.fraction - contents_.status.fraction) > 0.005 ||
                           next.status.error != contents_.status.error || next.idle != contents_.idle;
-        if (next.status.error != contents_.status.error && !next.status.error.empty()) say(next.status.error);
-        if (next.idle && request_.id != said_still_) {
-            said_still_ = request_.id;
-            say("still: all is drawn");
+        if (next.status.error != contents_.status.error && !next.status.error.empty()) log(next.status.error);
+        if (next.idle && request_.id != reported_idle_) {
+            reported_idle_ = request_.id;
+            log("still: all is drawn");
         }
         contents_ = std::move(next);
         if (contents_.properties) state_.loaded = contents_.properties->scene;
@@ -475,7 +475,7 @@ private:
     std::string own_camera_ = "none taken yet";  // --camera text of camera_
     SceneWatch watch_;
     DrawRequest request_;                                         // the latest request
-    std::uint64_t said_still_ = 0;                                // the last request reported as complete
+    std::uint64_t reported_idle_ = 0;                             // the last request reported as complete
     double now_ = 0, last_ = 0, moving_until_ = 0, watched_ = 0;  // s since begun_
     double changed_ = -1;                                         // time of the last change of the subject
     int width_ = 0, height_ = 0, frames_left_ = 3;
@@ -484,9 +484,9 @@ private:
     Mouse mouse_{state_,
                  contents_,
                  camera_,
-                 {[this] { moved(); }, [this](const std::string& line) { say(line); },
+                 {[this] { moved(); }, [this](const std::string& line) { log(line); },
                   [this](const std::string& line) { tell(line); }}};
-    Latencies latencies_{[this](const std::string& line) { say(line); }, begun_};
+    Latencies latencies_{[this](const std::string& line) { log(line); }, begun_};
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ struct ViewerOptions {
     DeviceOptions device;
     CompareOptions compare;  // rules of the verdict
     // Receives a line for each action and its duration; may be empty.
-    std::function<void(const std::string&)> say;
+    std::function<void(const std::string&)> log;
 };
 
 // Shows the window until it is closed. Returns the number of validation-layer messages (0 without layers)

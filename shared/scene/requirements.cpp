@@ -61,7 +61,7 @@ void addMaterial(Requirements& r, const Scene& scene, const Material& m, std::se
 }
 
 // Adds a line: `yes` says why a feature is rendered, `no` why it is omitted.
-auto sayIn(std::vector<Requirements::Line>& lines) {
+auto lineAdder(std::vector<Requirements::Line>& lines) {
     return [&lines](bool modelled, const char* what, std::string yes, std::string no) {
         lines.push_back({modelled, what, modelled ? std::move(yes) : std::move(no)});
     };
@@ -132,88 +132,88 @@ std::string Requirements::deformedText() const {
 }
 
 void Requirements::addMaterialLines(std::vector<Line>& lines) const {
-    const auto say = sayIn(lines);
-    say(textures > 0, "textures", fmt::format("the materials in use read {}", textures),
+    const auto add = lineAdder(lines);
+    add(textures > 0, "textures", fmt::format("the materials in use read {}", textures),
         "no material in use reads a texture");
-    say(normal_maps, "normal maps", "a material has a normal texture, which needs tangents",
+    add(normal_maps, "normal maps", "a material has a normal texture, which needs tangents",
         "no material has a normal texture");
-    say(vertex_colors, "vertex colours", "a mesh has COLOR_0", "no mesh has COLOR_0");
-    say(second_texcoord, "second UV set", "a texture reads TEXCOORD_1", "every texture reads TEXCOORD_0");
-    say(texture_transform, "texture transforms", "a texture has KHR_texture_transform",
+    add(vertex_colors, "vertex colours", "a mesh has COLOR_0", "no mesh has COLOR_0");
+    add(second_texcoord, "second UV set", "a texture reads TEXCOORD_1", "every texture reads TEXCOORD_0");
+    add(texture_transform, "texture transforms", "a texture has KHR_texture_transform",
         "no texture has KHR_texture_transform");
-    say(alpha_mask, "alpha test", "a material has alphaMode MASK",
+    add(alpha_mask, "alpha test", "a material has alphaMode MASK",
         "no material has alphaMode MASK: depth passes read only positions");
-    say(alpha_blend, "alpha blending", "a material has alphaMode BLEND: drawn over opaque surfaces",
+    add(alpha_blend, "alpha blending", "a material has alphaMode BLEND: drawn over opaque surfaces",
         "no material has alphaMode BLEND: no blending pass");
-    say(double_sided, "back faces", "a material is double-sided: its back faces are drawn",
+    add(double_sided, "back faces", "a material is double-sided: its back faces are drawn",
         "no material is double-sided: back faces are culled");
-    say(occlusion, "occlusion textures", "a material has an occlusion texture",
+    add(occlusion, "occlusion textures", "a material has an occlusion texture",
         "no material has an occlusion texture: ambient light is not dimmed");
-    say(emission, "emission",
+    add(emission, "emission",
         min_emission == max_emission
             ? fmt::format("materials emit {:g} W/(sr m^2)", max_emission)
             : fmt::format("materials emit {:g} to {:g} W/(sr m^2)", min_emission, max_emission),
         "no material emits: no emission attachment");
-    say(lightmap, "lightmaps", fmt::format("a material has one, up to {:g} W/(sr m^2)", max_lightmap),
+    add(lightmap, "lightmaps", fmt::format("a material has one, up to {:g} W/(sr m^2)", max_lightmap),
         "no material has one: no lightmap attachment");
-    say(unlit, "unlit materials",
+    add(unlit, "unlit materials",
         "a material has KHR_materials_unlit: it emits its base colour and reflects nothing",
         "no material has KHR_materials_unlit");
-    say(specular_glossiness, "specular-glossiness materials",
+    add(specular_glossiness, "specular-glossiness materials",
         "a material has KHR_materials_pbrSpecularGlossiness: its F0 is stored, its albedo is what F0 leaves",
         "no material has KHR_materials_pbrSpecularGlossiness");
-    say(dielectric_specular, "dielectric specular",
+    add(dielectric_specular, "dielectric specular",
         "a material has KHR_materials_specular, _ior, _pbrSpecularGlossiness or _unlit",
         "every dielectric has F0 = 0.04: no specular attachment");
 }
 
 void Requirements::addLayerLines(std::vector<Line>& lines) const {
-    const auto say = sayIn(lines);
-    say((layers & gpu::LAYER_CLEARCOAT) != 0, "clear coats",
+    const auto add = lineAdder(lines);
+    add((layers & gpu::LAYER_CLEARCOAT) != 0, "clear coats",
         "a lit material has clearcoatFactor above 0: a second specular layer over its base",
         "no lit material has KHR_materials_clearcoat with a factor above 0");
-    say((layers & gpu::LAYER_ANISOTROPY) != 0, "anisotropy",
+    add((layers & gpu::LAYER_ANISOTROPY) != 0, "anisotropy",
         "a lit material has anisotropyStrength above 0: stretched highlights, which need tangents",
         "no lit material has KHR_materials_anisotropy with a strength above 0");
-    say((layers & gpu::LAYER_SHEEN) != 0, "sheen",
+    add((layers & gpu::LAYER_SHEEN) != 0, "sheen",
         "a lit material has sheenColorFactor above 0: a layer of fibres that dims what lies below",
         "no lit material has KHR_materials_sheen with a colour above 0");
-    say((layers & gpu::LAYER_IRIDESCENCE) != 0, "iridescence",
+    add((layers & gpu::LAYER_IRIDESCENCE) != 0, "iridescence",
         "a lit material has iridescenceFactor above 0: a thin film colours what its base reflects",
         "no lit material has KHR_materials_iridescence with a factor above 0");
-    say((layers & gpu::LAYER_TRANSMISSION) != 0, "transmission",
+    add((layers & gpu::LAYER_TRANSMISSION) != 0, "transmission",
         "a lit material has transmissionFactor above 0: it shows the opaque surfaces behind it",
         "no lit material has KHR_materials_transmission with a factor above 0");
-    say(volume, "volumes", "a material that transmits light has a thickness: it refracts and absorbs",
+    add(volume, "volumes", "a material that transmits light has a thickness: it refracts and absorbs",
         "no material that transmits light has KHR_materials_volume with a thickness above 0");
-    say(dispersion, "dispersion", "a volume has dispersion above 0: components refract apart",
+    add(dispersion, "dispersion", "a volume has dispersion above 0: components refract apart",
         "no volume has KHR_materials_dispersion above 0");
-    say((layers & gpu::LAYER_DIFFUSE_TRANSMISSION) != 0, "diffuse transmission",
+    add((layers & gpu::LAYER_DIFFUSE_TRANSMISSION) != 0, "diffuse transmission",
         "a lit material has diffuseTransmissionFactor above 0: light from behind passes it",
         "no lit material has KHR_materials_diffuse_transmission with a factor above 0");
 }
 
 void Requirements::addMotionAndLightLines(std::vector<Line>& lines) const {
-    const auto say = sayIn(lines);
+    const auto add = lineAdder(lines);
     const std::uint32_t directional = lights(LightKind::directional), points = lights(LightKind::point),
                         spots = lights(LightKind::spot);
-    say(animations > 0, "animation",
+    add(animations > 0, "animation",
         fmt::format("{} play{}: nodes, lights, cameras and materials follow --time", animations,
                     animations == 1 ? "s" : ""),
         "the scene has no animation");
-    say(skinned + morphed > 0, "skins and morph targets", deformedText(),
+    add(skinned + morphed > 0, "skins and morph targets", deformedText(),
         "no mesh is skinned or morphed: no deformation");
-    say(directional > 0, "directional lights", fmt::format("{} in the scene", directional),
+    add(directional > 0, "directional lights", fmt::format("{} in the scene", directional),
         "none in the scene");
-    say(points + spots > 0, "point and spot lights",
+    add(points + spots > 0, "point and spot lights",
         fmt::format("{} point and {} spot in the scene", points, spots), "none in the scene: no light lists");
-    say(areaLights() > 0, "area lights", areaLightsText() + " in the scene",
+    add(areaLights() > 0, "area lights", areaLightsText() + " in the scene",
         "none in the scene: no table of linearly transformed cosines");
     lines.push_back({false, "sun discs",
                      sun_discs > 0
                          ? fmt::format("{} in the scene: only the reference renders them", sun_discs)
                          : "no directional light has an angular size"});
-    say(!environment.empty(), "environment",
+    add(!environment.empty(), "environment",
         environment + ": prefiltered maps, spherical harmonics, background",
         "none in the scene: no maps, no pass");
 }

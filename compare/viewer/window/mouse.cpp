@@ -39,7 +39,7 @@ void Mouse::handle(const Input& input, const CanvasRect& canvas, double scale, b
                 state_.pixel = under->pixel;
                 state_.open = Tab::pixel;
                 contents_.under = under;
-                calls_.say("pixel " + belowText(contents_));
+                calls_.log("pixel " + belowText(contents_));
             }
         } else if (button.button == GLFW_MOUSE_BUTTON_LEFT) {
             const bool wipes = state_.canvas.layout == Layout::wipe &&

@@ -19,7 +19,7 @@ public:
     // `moved`. `say` receives a line for the log, `tell` one also for the user.
     struct Calls {
         std::function<void()> moved;
-        std::function<void(const std::string&)> say, tell;
+        std::function<void(const std::string&)> log, tell;
     };
     Mouse(InterfaceState& state, Contents& contents, FlyCamera& camera, Calls calls)
         : state_(state), contents_(contents), camera_(camera), calls_(std::move(calls)) {}

@@ -42,8 +42,8 @@ Screen::ImGuiContextOf::~ImGuiContextOf() {
     ImGui::DestroyContext();
 }
 
-Screen::Screen(const Window& window, bool validate, std::function<void(const std::string&)> say)
-    : window_(window), say_(std::move(say)), imgui_(window.handle()), validate_(validate) {
+Screen::Screen(const Window& window, bool validate, std::function<void(const std::string&)> report)
+    : window_(window), report_(std::move(report)), imgui_(window.handle()), validate_(validate) {
     followScale();
 }
 
@@ -76,7 +76,7 @@ void Screen::draw(InterfaceState& state, const Contents& contents, const CanvasR
     if (++presenters_ > maxPresenters)
         throw std::runtime_error(
             "view: the device that shows the window was lost several times; try another --device");
-    say_("the device that shows the window was lost and is started again");
+    report_("the device that shows the window was lost and is started again");
     makePresenter();
 }
 

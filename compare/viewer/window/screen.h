@@ -16,7 +16,7 @@ namespace diptych::viewer {
 class Screen {
 public:
     // `say` receives a line if the window's device is lost. The window must outlive this.
-    Screen(const Window& window, bool validate, std::function<void(const std::string&)> say);
+    Screen(const Window& window, bool validate, std::function<void(const std::string&)> report);
 
     double scale() const { return scale_; }  // of texts
     void followScale();                      // of the window's monitor
@@ -49,7 +49,7 @@ private:
                  const std::vector<PanelRect>& panel_rects);
 
     const Window& window_;
-    const std::function<void(const std::string&)> say_;
+    const std::function<void(const std::string&)> report_;
     ImGuiContextOf imgui_;
     ValidationLog log_;
     const bool validate_;
