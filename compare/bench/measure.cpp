@@ -78,7 +78,8 @@ std::string hopeless(const Bench& bench, const BenchGroup& group, const Settings
 }
 
 // Reason to skip: the device or the scene does not support these Settings; empty if both do.
-std::string leftOut(const Settings& settings, const Requirements& needs, std::span<const int> samples) {
+std::string omissionReason(const Settings& settings, const Requirements& needs,
+                           std::span<const int> samples) {
     if (std::ranges::find(samples, settings.msaa) == samples.end())
         return fmt::format("the device does not support {} samples per pixel", settings.msaa);
     if (!needs.alpha_blend && (needs.layers & gpu::LAYER_TRANSMISSION) == 0 &&
@@ -94,7 +95,7 @@ std::vector<Settings> triedSettings(Device& device, const BenchGroup& group, con
     std::vector<Settings> tried;
     for (const Settings& settings : group.settings) {
         std::string reason;
-        if (bench.options.table == BenchTable::msaa) reason = leftOut(settings, needs, samples);
+        if (bench.options.table == BenchTable::msaa) reason = omissionReason(settings, needs, samples);
         if (reason.empty()) reason = hopeless(bench, group, settings);
         if (reason.empty())
             tried.push_back(settings);
@@ -174,7 +175,7 @@ void measureGroup(Device& device, const std::shared_ptr<PipelineSet>& pipelines,
                  fmt::format("its first frame took {} ms, over --max-ms {:.6g}", msText(ms),
                              bench.options.max_ms));
     }
-    std::vector<TimedFrame> times = timeInTurns(frames, timed, bench.runs, profiled, step);
+    std::vector<TimedFrame> times = timeInterleaved(frames, timed, bench.runs, profiled, step);
     for (std::size_t k = 0; k < timed.size(); ++k) {
         const std::size_t i = timed[k];
         const Frame frame = frames.frame(i);

@@ -89,9 +89,9 @@ std::string bytesText(const PathPlan& path) {
 }  // namespace
 
 Json toJson(const ScenePlan& plan) {
-    Json modelled = Json::array(), leftOut = Json::array(), paths = Json::array();
+    Json modelled = Json::array(), omitted = Json::array(), paths = Json::array();
     for (const auto& line : plan.lines)
-        (line.modelled ? modelled : leftOut).push_back({{"what", line.what}, {"why", line.why}});
+        (line.modelled ? modelled : omitted).push_back({{"what", line.what}, {"why", line.why}});
     Json work = Json::array();
     for (const FrameWork& frame : plan.work) work.push_back(workJson(plan, frame));
     for (const PathPlan& path : plan.paths) {
@@ -120,7 +120,7 @@ Json toJson(const ScenePlan& plan) {
               {"textures", plan.needs.textures},
               {"lights", plan.needs.lights()},
               {"modelled", modelled},
-              {"left_out", leftOut},
+              {"left_out", omitted},
               {"notes", plan.notes},
               {"variants", variantsJson(plan)},
               {"paths", paths},

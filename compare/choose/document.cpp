@@ -32,7 +32,7 @@ namespace {
 using Sentences = std::vector<output::Text>;
 
 template <class Report>
-constexpr bool isJoint = std::same_as<Report, CommonReport>;
+constexpr bool isJoint = std::same_as<Report, JointReport>;
 
 std::string_view titleOf(Measure measure) {
     return named(measure).title;
@@ -226,7 +226,7 @@ Table candidateTable(const ChoiceReport& report) {
 }
 
 // One candidate of the joint choice in each scene.
-Table sceneTable(const CommonReport& report, std::size_t candidate) {
+Table sceneTable(const JointReport& report, std::size_t candidate) {
     const std::vector<experiment::Row>& rows = report.choice.candidates[candidate].scenes;
     Table table;
     table.sortable = true;
@@ -359,8 +359,8 @@ std::vector<Block> blocksOf(const ChoiceReport& report) {
     return blocks;
 }
 
-std::vector<Block> blocksOf(const CommonReport& report) {
-    const CommonChoice& choice = report.choice;
+std::vector<Block> blocksOf(const JointReport& report) {
+    const JointChoice& choice = report.choice;
     std::string metrics;
     Sentences lines;
     if (choice.nearest) {
@@ -370,10 +370,10 @@ std::vector<Block> blocksOf(const CommonReport& report) {
         lines = missesText(worst, report.budget);
     }
     if (choice.chosen) addFinalists(lines, report);
-    const auto fit = std::ranges::count(choice.candidates, true, &CommonCandidate::fits);
+    const auto fit = std::ranges::count(choice.candidates, true, &JointCandidate::fits);
     lines.emplace_back(fmt::format(
         "{} within all budgets{}", counted(static_cast<std::size_t>(fit), "candidate"),
-        choice.left_out > 0 ? fmt::format("; {} proposed by fewer scenes left out", choice.left_out) : ""));
+        choice.omitted > 0 ? fmt::format("; {} proposed by fewer scenes left out", choice.omitted) : ""));
     std::vector<Block> blocks{
         Heading{2,
                 {verdictOf(report), fmt::format(" all {} scenes, {}x{}: {} in each", report.scenes.size(),
@@ -410,7 +410,7 @@ void writeChoice(const Choices& choices, const std::filesystem::path& path, bool
         add(blocksOf(report), report.choice.candidates);
     }
     if (choices.all)
-        for (const CommonCandidate& candidate : choices.all->choice.candidates) add({}, candidate.scenes);
+        for (const JointCandidate& candidate : choices.all->choice.candidates) add({}, candidate.scenes);
     folder.put(experiment::rowsFile, inCsv(experiment::rowsTable(rows)));
     page.files = folder.files();
     folder.put("index.html", inHtml(page));

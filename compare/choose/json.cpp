@@ -101,13 +101,13 @@ Json sceneJson(const ChoiceReport& report) {
     return json;
 }
 
-Json jsonOf(const CommonReport& report) {
-    const CommonChoice& choice = report.choice;
+Json jsonOf(const JointReport& report) {
+    const JointChoice& choice = report.choice;
     Json json, candidates = Json::array();
     addOutcome(json, report);
-    json["left_out"] = choice.left_out;
+    json["left_out"] = choice.omitted;
     for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
-        const CommonCandidate& candidate = choice.candidates[i];
+        const JointCandidate& candidate = choice.candidates[i];
         Json rows = Json::array();
         for (std::size_t scene = 0; scene < candidate.scenes.size(); ++scene) {
             Json& row = rows.emplace_back(experiment::jsonOf(candidate.scenes[scene]));

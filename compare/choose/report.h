@@ -2,7 +2,7 @@
 // A choice as text, JSON and page. Its JSON has schema 2.
 #pragma once
 
-#include "compare/choose/common.h"
+#include "compare/choose/joint.h"
 #include "compare/choose/search.h"
 #include "compare/choose/sensitivity.h"
 #include "compare/output/document.h"
@@ -52,14 +52,14 @@ struct ChoiceReport : AnyReport {
 };
 
 // The joint choice for several scenes. Commands use SCENE as the scene's name.
-struct CommonReport : AnyReport {
+struct JointReport : AnyReport {
     std::vector<std::string> scenes;
-    CommonChoice choice;
+    JointChoice choice;
 };
 
 struct Choices {
     std::vector<ChoiceReport> scenes;  // at least one
-    std::optional<CommonReport> all;   // with several scenes
+    std::optional<JointReport> all;    // with several scenes
 };
 
 // Empty if nothing fits. `Choices`: of the only scene, or the joint one.
@@ -73,7 +73,7 @@ inline std::optional<Settings> chosenSettings(const Choices& choices) {
 
 // Blocks for a terminal and the page.
 std::vector<output::Block> blocksOf(const ChoiceReport& report);
-std::vector<output::Block> blocksOf(const CommonReport& report);
+std::vector<output::Block> blocksOf(const JointReport& report);
 // Compares the chosen Settings with the other path's best fitting ones, pass by pass.
 std::string whyText(const ChoiceReport& report);
 

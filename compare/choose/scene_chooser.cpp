@@ -254,26 +254,26 @@ HeldOutCamera SceneChooser::atHeldOut(LoadedScene& loaded, const Settings& truth
     return {page::cameraTitle(references.frames.front()), error, error <= max};
 }
 
-CommonReport SceneChooser::chooseForAll(const std::vector<ChoiceReport>& reports) {
+JointReport SceneChooser::chooseJointly(const std::vector<ChoiceReport>& reports) {
     const Clock::time_point start = Clock::now();
     const Stage stage(progress_, fmt::format("all {} scenes", reports.size()));
     std::vector<const SettingsChoice*> own;
-    CommonReport all;
+    JointReport all;
     for (const ChoiceReport& report : reports) {
         own.push_back(&report.choice);
         all.scenes.push_back(report.scene);
     }
-    CommonOptions common;
-    common.budget = question_.budget;
-    common.progress = reporter(stage);
+    JointOptions options;
+    options.budget = question_.budget;
+    options.progress = reporter(stage);
     const std::function<Evaluator&(std::size_t)> evaluatorOf = [&](std::size_t scene) -> Evaluator& {
         return *load(reports[scene].scene, Stage()).evaluator;
     };
-    all.choice = choose::chooseForAll(own, evaluatorOf, common);
+    all.choice = choose::chooseJointly(own, evaluatorOf, options);
     all.requested = question_.settings;
     all.requested.camera.clear();
     all.budget = question_.budget;
-    for (CommonCandidate& candidate : all.choice.candidates) {
+    for (JointCandidate& candidate : all.choice.candidates) {
         for (std::size_t scene = 0; scene < candidate.scenes.size(); ++scene) {
             candidate.scenes[scene].scene = all.scenes[scene];
             candidate.scenes[scene].judgement = candidate.fits ? "fits all scenes" : "not for all scenes";

@@ -2,7 +2,7 @@
 // Chooses Settings on one device: reads scenes, draws references, measures candidates.
 #pragma once
 
-#include "compare/choose/common.h"
+#include "compare/choose/joint.h"
 #include "compare/choose/report.h"
 #include "compare/experiment/references.h"
 #include "compare/run/progress.h"
@@ -40,7 +40,7 @@ public:
     ChoiceReport choose(const std::string& scene);
     // One Settings for all scenes; call choose() for each first. Only one scene is in memory: others are
     // read again, but their references are kept.
-    CommonReport chooseForAll(const std::vector<ChoiceReport>& reports);
+    JointReport chooseJointly(const std::vector<ChoiceReport>& reports);
 
 private:
     struct LoadedScene;  // a scene, read and uploaded

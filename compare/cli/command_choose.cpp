@@ -123,7 +123,7 @@ int runChoose(const ChooseLine& options) {
         tell(inText(blocksOf(choices.scenes.back())));
     }
     if (scenes.size() > 1) {
-        choices.all = chooser.chooseForAll(choices.scenes);
+        choices.all = chooser.chooseJointly(choices.scenes);
         tell(inText(blocksOf(*choices.all)));
     }
     std::optional<Settings> settings = chosenSettings(choices);

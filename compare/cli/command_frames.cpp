@@ -88,8 +88,8 @@ public:
         if (folder_) {
             Json manifest = result_;
             manifest["files"] = files_;
-            writeFile(*folder_ / several_manifest, jsonText(manifest) + "\n");
-            files_.emplace_back(several_manifest);
+            writeFile(*folder_ / frames_manifest, jsonText(manifest) + "\n");
+            files_.emplace_back(frames_manifest);
             folder_->put(files_, [&] { return earlierIn(output_, 1, options_.force); });
         }
         if (options_.json) printOut("{}\n", jsonText(result_));

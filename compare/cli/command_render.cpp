@@ -98,8 +98,8 @@ std::vector<std::filesystem::path> writeAll(const RenderLine& options, const Ima
         result["frames"][i]["file"] = targets.back().string();
     }
     if (frames.size() > 1) {
-        writeFile(folder / several_manifest, jsonText(result) + "\n");
-        files.emplace_back(several_manifest);
+        writeFile(folder / frames_manifest, jsonText(result) + "\n");
+        files.emplace_back(frames_manifest);
     }
     folder.put(files, earlier);
     return targets;
@@ -167,7 +167,7 @@ std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t 
 
 void checkFolder(const Output& output, std::size_t count, bool force) {
     const bool single = output.kind != OutputKind::folder || isOurManifest(output.path / single_manifest);
-    checkReplaceable(output, single ? single_manifest : several_manifest, force);
+    checkReplaceable(output, single ? single_manifest : frames_manifest, force);
     for (std::size_t i = 0; count > 1 && i < count; ++i)
         checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_manifest, force);
 }
@@ -176,8 +176,8 @@ std::vector<std::string> earlierIn(const Output& output, std::size_t count, bool
     checkFolder(output, count, force);
     const std::filesystem::path& folder = output.path;
     std::vector<std::string> names = manifestFiles(folder, single_manifest);
-    if (!isOurManifest(folder / several_manifest)) return names;
-    std::ranges::move(manifestFiles(folder, several_manifest), std::back_inserter(names));
+    if (!isOurManifest(folder / frames_manifest)) return names;
+    std::ranges::move(manifestFiles(folder, frames_manifest), std::back_inserter(names));
     for (std::size_t i = 0; isOurManifest(numbered(folder, i) / single_manifest); ++i)
         for (const std::string& name : manifestFiles(numbered(folder, i), single_manifest))
             names.push_back(fmt::format("{}/{}", i + 1, name));

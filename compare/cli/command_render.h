@@ -14,7 +14,7 @@ namespace diptych::cli {
 
 inline constexpr const char* single_manifest = "frame.json";  // in a folder of one Frame
 // In a folder with one folder per Frame, or with the numbered images of --frames.
-inline constexpr const char* several_manifest = "frames.json";
+inline constexpr const char* frames_manifest = "frames.json";
 
 struct RenderLine : SceneGroup {
     bool list_scenes = false;

@@ -203,7 +203,7 @@ ViewLine parseReported(const std::vector<std::string>& words) {
                                "--mask",     "--ids",         "--ignore-edges",   "--crop",
                                "--deferred", "--forward-plus"};
     constexpr std::array flags{"--allow-noise", "--strict", "--allow-empty"};
-    constexpr std::array left_out{"-o", "--renderer"};
+    constexpr std::array unsupported{"-o", "--renderer"};
     const auto isOneOf = [](const auto& options, const std::string& name) {
         return std::ranges::find(options, name) != options.end();
     };
@@ -223,7 +223,7 @@ ViewLine parseReported(const std::vector<std::string>& words) {
             read.push_back(word);
             continue;
         }
-        const bool unread = isOneOf(left_out, name);
+        const bool unread = isOneOf(unsupported, name);
         if (!unread && !isOneOf(taken, name) && !isSetting(name))
             refuse(
                 "the command of the comparison has {}: view takes only scene, Settings and comparison "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/experiment/references.h"
 
-#include "compare/render/left_out.h"
+#include "compare/render/omitted_lights.h"
 #include "shared/contract/debug_mode.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ void addNotes(std::vector<std::string>& notes, const ReferenceFrames& references
     };
     for (const Frame& frame : references.frames) add(frame.notes);
     for (const Path path : drawn_paths)
-        if (std::ranges::count(rows, path, &Settings::path) > 0) add(leftOutLight(path, needs));
+        if (std::ranges::count(rows, path, &Settings::path) > 0) add(omittedLights(path, needs));
 }
 
 }  // namespace diptych::experiment

@@ -175,8 +175,8 @@ Attempt drawExternally(const ExternalRenderer& renderer, const Scene& scene, con
         frame.channels = std::move(image.channels);
         frame.origin.file = renderer.file.string();
         frame.origin.external = true;
-        frame.origin.left_out = std::move(image.origin.left_out);
-        std::erase(frame.origin.left_out, "A");  // pixel coverage
+        frame.origin.omitted_channels = std::move(image.origin.omitted_channels);
+        std::erase(frame.origin.omitted_channels, "A");  // pixel coverage
         frame.origin.corrections = describe(renderer.corrections);
         frame.made_in_ms = ended.ms;
         for (const std::string& line : frame.origin.corrections)

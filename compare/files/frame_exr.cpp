@@ -103,7 +103,7 @@ Frame frameFromExr(const std::filesystem::path& path) {
             if (mode && mode->name == channel.name && mode->width == channel.image.components)
                 frame.channels[mode->channel] = std::move(channel.image);
             else
-                frame.origin.left_out.push_back(oneLine(channel.name));
+                frame.origin.omitted_channels.push_back(oneLine(channel.name));
         }
         if (frame.channels.empty())
             throw std::runtime_error("has no channel that diptych knows; --list-channels shows them");

@@ -57,13 +57,13 @@ struct RenderOptions {
 };
 
 // Whether a channel of `channels` is left out: it is 0 in scenes without its layer. `layers`: of the scene.
-inline bool isLeftOut(const RenderOptions& options, gpu::uint layers, Channel mode) {
+inline bool isOmitted(const RenderOptions& options, gpu::uint layers, Channel mode) {
     const bool asked = options.named && std::ranges::count(options.requested, mode) > 0;
     return !mayShow(mode, layers) && !asked;
 }
 inline RenderOptions withoutAbsentLayers(RenderOptions options, gpu::uint layers) {
     std::erase_if(options.channels,
-                  [requested = options, layers](Channel mode) { return isLeftOut(requested, layers, mode); });
+                  [requested = options, layers](Channel mode) { return isOmitted(requested, layers, mode); });
     return options;
 }
 

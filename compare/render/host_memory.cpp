@@ -106,7 +106,7 @@ std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions
 }
 
 std::uint64_t checkHostMemory(SceneViews& views, std::span<const Settings> settings,
-                              const RenderOptions& options, bool software, std::uint64_t granted,
+                              const RenderOptions& options, bool software, std::uint64_t approved,
                               const std::function<FreeMemory()>& free) {
     bool sun = false, samples = false, several = false;
     gpu::uint layers = 0;
@@ -118,7 +118,7 @@ std::uint64_t checkHostMemory(SceneViews& views, std::span<const Settings> setti
     }
     const std::uint64_t needed = hostMemory(settings, withoutAbsentLayers(options, layers), software, sun,
                                             views.scene().materials.size());
-    if (needed <= granted) return needed;
+    if (needed <= approved) return needed;
     std::vector<std::string> remedies{"a smaller --size"};
     if (options.channels.size() > 8) remedies.emplace_back("fewer --channels");
     if (samples) remedies.emplace_back("--msaa 1");

@@ -24,11 +24,11 @@ double shadowBytes(const Settings& settings);
 std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions& options, bool software,
                          bool sun, std::size_t materials);
 
-// Returns hostMemory(). Throws std::runtime_error if it exceeds both `granted` and the memory that this
+// Returns hostMemory(). Throws std::runtime_error if it exceeds both `approved` and the memory that this
 // process may still use. The message states the need, the free memory and remedies: "builtin:gallery at
 // 16384x16384: needs about 79.3 GB, ...".
 std::uint64_t checkHostMemory(
     SceneViews& views, std::span<const Settings> settings, const RenderOptions& options, bool software,
-    std::uint64_t granted = 0, const std::function<FreeMemory()>& free = [] { return freeMemory(); });
+    std::uint64_t approved = 0, const std::function<FreeMemory()>& free = [] { return freeMemory(); });
 
 }  // namespace diptych

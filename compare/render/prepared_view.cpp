@@ -2,7 +2,7 @@
 #include "compare/render/prepared_view.h"
 
 #include "compare/frames/frame_properties.h"
-#include "compare/render/left_out.h"
+#include "compare/render/omitted_lights.h"
 #include "shared/draw/light_batches.h"
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/resolve.h"
@@ -230,8 +230,8 @@ Frame describedFrame(const PreparedFrame& prepared, const Scene& scene, const Se
     const SceneView& seen = prepared.view.scene;
     Frame frame = describedFrame(scene, seen, settings);
     for (const std::string& note : prepared.view.materials.notes()) frame.notes.push_back(note);
-    std::ranges::move(leftOutLight(settings.path, seen.needs), std::back_inserter(frame.notes));
-    std::ranges::move(leftOutShadows(seen.lights, settings), std::back_inserter(frame.notes));
+    std::ranges::move(omittedLights(settings.path, seen.needs), std::back_inserter(frame.notes));
+    std::ranges::move(omittedShadows(seen.lights, settings), std::back_inserter(frame.notes));
     for (const std::string& note : prepared.view.notes) frame.notes.push_back(note);
     frame.shadow_filter_radii = prepared.view.shadow.sun.filterRadii();
     frame.shadow_level_filter_radii = prepared.view.shadow.sun.levelFilterRadii();

@@ -6,7 +6,7 @@
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
 #include "compare/render/host_memory.h"
-#include "compare/render/left_out.h"
+#include "compare/render/omitted_lights.h"
 #include "compare/run/interruption.h"
 #include "compare/run/progress.h"
 #include "compare/run/version.h"
@@ -184,7 +184,7 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     frame.requested = options.requested;
     takeImage(rendered, frame);
     const auto isUnwanted = [&](Channel mode) {
-        return std::ranges::count(options.channels, mode) == 0 || isLeftOut(options, view.needs.layers, mode);
+        return std::ranges::count(options.channels, mode) == 0 || isOmitted(options, view.needs.layers, mode);
     };
     std::erase_if(frame.channels, [&](const auto& entry) {
         return isUnwanted(entry.first) && entry.first != Channel::material_id;

@@ -95,7 +95,7 @@ private:
     // Light through surfaces is that of the capture's lit.
     bool isThroughRequested() const {
         return isRequested(Channel::lit_transmission) &&
-               !isLeftOut(options_, prepared_.view.scene.needs.layers, Channel::lit_transmission);
+               !isOmitted(options_, prepared_.view.scene.needs.layers, Channel::lit_transmission);
     }
 
     // Renders with the timed pipelines, which contain no debug code.
@@ -114,13 +114,13 @@ private:
         if (rechecks()) request.modes = {Channel::lit};
         for (const Channel mode : options_.channels)
             if (mode != Channel::lit && unsupportedReason(settings_, debugMode(mode)).empty() &&
-                !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
+                !isOmitted(options_, prepared_.view.scene.needs.layers, mode))
                 request.modes.push_back(mode);
         request.every_sample = options_.every_sample;
         if (options_.through_gbuffer && shadesFragments(settings_.path))
             for (const Channel mode : litModes)
                 if ((isRequested(mode) || (mode == Channel::lit && isThroughRequested())) &&
-                    !isLeftOut(options_, prepared_.view.scene.needs.layers, mode))
+                    !isOmitted(options_, prepared_.view.scene.needs.layers, mode))
                     request.through_gbuffer.push_back(mode);
         return request;
     }
@@ -269,7 +269,7 @@ struct Renderer::State {
     std::unique_ptr<SceneViews> own_views;  // if none were given
     SceneViews& views;
     SharedResources shared;
-    std::uint64_t granted = 0;  // bytes of host memory
+    std::uint64_t approved = 0;  // bytes of host memory
 };
 
 std::shared_ptr<PipelineSet> makePipelineSet(Device& device) {
@@ -288,9 +288,9 @@ Renderer::Renderer(Device& device, const Scene& scene, std::shared_ptr<PipelineS
 Renderer::~Renderer() = default;
 
 void Renderer::checkMemory(std::span<const Settings> settings, const RenderOptions& options) {
-    const std::uint64_t needed =
-        checkHostMemory(state_->views, settings, options, state_->device.profile().software, state_->granted);
-    state_->granted = std::max(state_->granted, needed);
+    const std::uint64_t needed = checkHostMemory(state_->views, settings, options,
+                                                 state_->device.profile().software, state_->approved);
+    state_->approved = std::max(state_->approved, needed);
 }
 
 Frame Renderer::draw(const Settings& settings, const RenderOptions& options) {
@@ -393,7 +393,7 @@ std::vector<TimedFrame> Renderer::time(std::span<const Settings> settings, const
     }
     std::vector<std::size_t> all(drawn.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    std::vector<TimedFrame> timed = timeInTurns(frames, all, options.runs, profiled, step);
+    std::vector<TimedFrame> timed = timeInterleaved(frames, all, options.runs, profiled, step);
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         timed[i].made_in_ms += firstMs[i];
         times[places[i]] = std::move(timed[i]);

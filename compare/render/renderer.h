@@ -54,7 +54,7 @@ public:
     // Destroys one path's pipelines in all Renderers that share them. Prepared frames of that path must be
     // destroyed before.
     void clearPipelines(Path path);
-    // checkHostMemory() for Frames to be rendered. Memory granted before is not requested again, because
+    // checkHostMemory() for Frames to be rendered. Memory approved before is not requested again, because
     // Frames use it one after the other.
     void checkMemory(std::span<const Settings> settings, const RenderOptions& options);
     // Number of pipelines in all Renderers that share them.

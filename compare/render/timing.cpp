@@ -27,31 +27,31 @@ FrameTime timeWithRecording(const std::vector<double>& ms, const std::vector<dou
     return time;
 }
 
-void takeTurns(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw) {
+void interleave(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw) {
     for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < count; ++i) draw(round, i);
 }
 
-std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std::size_t> which, int runs,
-                                    int profiled,
-                                    const std::function<void(std::size_t, const std::string&)>& step) {
+std::vector<TimedFrame> timeInterleaved(PreparedFrames& frames, std::span<const std::size_t> which, int runs,
+                                        int profiled,
+                                        const std::function<void(std::size_t, const std::string&)>& step) {
     std::vector<TimedFrame> timed(which.size());
     std::vector<std::vector<double>> recording(which.size());
     std::vector<std::vector<std::vector<PassTime>>> passes(which.size());
     frames.warmUp(which);
-    const auto inTurns = [&](int rounds, const char* what, const std::function<void(std::size_t)>& draw) {
-        takeTurns(rounds, which.size(), [&](int round, std::size_t i) {
+    const auto interleaved = [&](int rounds, const char* what, const std::function<void(std::size_t)>& draw) {
+        interleave(rounds, which.size(), [&](int round, std::size_t i) {
             if (step) step(which[i], fmt::format("{} {} of {}", what, round + 1, rounds));
             const auto start = std::chrono::steady_clock::now();
             draw(i);
             timed[i].made_in_ms += msSince(start);
         });
     };
-    inTurns(runs, "frame", [&](std::size_t i) {
+    interleaved(runs, "frame", [&](std::size_t i) {
         timed[i].ms.push_back(frames.draw(which[i]));
         recording[i].push_back(frames.recordMs(which[i]));
     });
-    inTurns(profiled, "passes", [&](std::size_t i) { passes[i].push_back(frames.profile(which[i])); });
+    interleaved(profiled, "passes", [&](std::size_t i) { passes[i].push_back(frames.profile(which[i])); });
     for (std::size_t i = 0; i < which.size(); ++i) {
         timed[i].time = timeWithRecording(timed[i].ms, recording[i]);
         timed[i].time.object_lists = frames.objectListsMs(which[i]);

@@ -25,9 +25,9 @@ struct TimedFrame {
 // itself. Each frame's first draw, in which drivers compile, must be over. Results are in the order of
 // `which`. `step`, if any, is called before each frame of a round with its index in `frames` and a label,
 // "frame 2 of 5".
-std::vector<TimedFrame> timeInTurns(PreparedFrames& frames, std::span<const std::size_t> which, int runs,
-                                    int profiled,
-                                    const std::function<void(std::size_t, const std::string&)>& step = {});
+std::vector<TimedFrame> timeInterleaved(
+    PreparedFrames& frames, std::span<const std::size_t> which, int runs, int profiled,
+    const std::function<void(std::size_t, const std::string&)>& step = {});
 
 // Number of frames whose passes are timed one by one, apart from `runs` timed frames.
 constexpr int profiledOf(int runs) {
@@ -35,7 +35,7 @@ constexpr int profiledOf(int runs) {
 }
 
 // Calls draw(round, i) for each of `count` frames in every round.
-void takeTurns(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw);
+void interleave(int rounds, std::size_t count, const std::function<void(int, std::size_t)>& draw);
 
 // Medians of frame times `ms` and of their recording times `recording`.
 FrameTime timeWithRecording(const std::vector<double>& ms, const std::vector<double>& recording);

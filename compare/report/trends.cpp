@@ -45,7 +45,7 @@ constexpr std::pair<const char*, double IndexChannel::*> evaluated[] = {{"max", 
                                                                         {"p999", &IndexChannel::p999}};
 
 // Large members of a report that are not needed here; skipping them keeps reports of thousands readable.
-bool isLeftOut(const std::string& key) {
+bool isOmitted(const std::string& key) {
     static const std::set<std::string> names{
         "settings", "passes",     "figures", "explanation",  "marks", "notes", "marks_found",
         "because",  "criterion",  "command", "worst_values", "truth", "files", "encoding",
@@ -85,7 +85,7 @@ void addNoise(EarlierReport& report, const JsonValue& frame) {
 EarlierReport readEarlier(const fs::path& where) {
     return named("--since " + where.string(), [&] {
         const nlohmann::json json = parseJson(textIn(reportFile(where), json_bytes),
-                                              [](int, const std::string& key) { return !isLeftOut(key); });
+                                              [](int, const std::string& key) { return !isOmitted(key); });
         const JsonValue top(json);
         if (top.textOr("software", "") != softwareName || !top.has("comparisons"))
             fail("is not a report of compare; give its folder or report.json");

@@ -106,7 +106,8 @@ std::vector<output::Block> blocksOf(const char* title, const char* explanation, 
 }
 
 // Columns that a narrow terminal lacks; the first are dropped first.
-constexpr std::string_view leftOut[] = {"max", "min", errorMetrics[2].title, "memory", errorMetrics[1].title};
+constexpr std::string_view omittedFirst[] = {"max", "min", errorMetrics[2].title, "memory",
+                                             errorMetrics[1].title};
 constexpr std::size_t fewestWords = 24;
 
 }  // namespace
@@ -238,7 +239,7 @@ TradeoffTable::TradeoffTable(const Tradeoff& tradeoff, const std::vector<Setting
     std::size_t width = 0;
     for (const Column& column : head_.columns)
         if (column.kind == Column::number) width += column.width + head_.gap;
-    for (const std::string_view title : leftOut) {
+    for (const std::string_view title : omittedFirst) {
         if (columns == 0 || width + std::min(settings_width_, fewestWords) <= columns) break;
         Column& column = *std::ranges::find(head_.columns, title, &Column::title);
         column.where = Column::page;

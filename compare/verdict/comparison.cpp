@@ -211,9 +211,9 @@ void readOrigins(const Frame& left, const Frame& right, bool strict, Comparison&
         for (const std::string& line : frame->origin.not_applied)
             lines.push_back(fmt::format("{}: {}", frame->name, line));
     for (const Frame* frame : {&left, &right})
-        if ((frame->requested.empty() || frame->origin.external) && !frame->origin.left_out.empty())
+        if ((frame->requested.empty() || frame->origin.external) && !frame->origin.omitted_channels.empty())
             lines.push_back(fmt::format("{} of {}: not compared, Diptych has no such channel",
-                                        fmt::join(frame->origin.left_out, ", "), frame->name));
+                                        fmt::join(frame->origin.omitted_channels, ", "), frame->name));
 }
 
 // Adds a channel that `lacking` does not have: as forward-only or deferred-only, or as a note or failure.

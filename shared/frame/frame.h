@@ -71,7 +71,7 @@ struct ChannelNoise {
 struct FrameOrigin {
     std::string file;  // empty: rendered by this run
     std::string device, driver, commit;
-    std::vector<std::string> left_out = {};     // the file's channels that Diptych does not have
+    std::vector<std::string> omitted_channels = {};  // the file's channels that Diptych does not have
     std::vector<std::string> not_applied = {};  // what the file says of its colours or pixels (FileNotes)
     // Rendered now by an external renderer. `file` names it; `corrections` describes those of its input.
     bool external = false;

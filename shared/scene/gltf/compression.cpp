@@ -41,9 +41,9 @@ void decompress(Model& model, const std::vector<bool>& drawn, std::map<std::size
     decodeMeshopt(model, std::move(views), found);
     found.moveTo(notes);
     decodeDraco(model, primitives, limit, undecoded);
-    NoteList left_out("compressed meshes");
-    for (const auto& [mesh, line] : undecoded) left_out.add(line + ": the mesh is left out");
-    left_out.moveTo(notes);
+    NoteList omitted("compressed meshes");
+    for (const auto& [mesh, line] : undecoded) omitted.add(line + ": the mesh is left out");
+    omitted.moveTo(notes);
     broken.merge(undecoded);
 }
 

@@ -337,9 +337,9 @@ Document open(Bytes bytes, const std::filesystem::path& folder, const std::strin
     if (!result.variants.names.empty()) found.extensions.insert("KHR_materials_variants");
     if (!result.image_lights.scenes.empty()) found.extensions.insert("EXT_lights_image_based");
     noteUndeclared(found, result.notes);
-    result.left_out = std::move(found.extensions);
-    result.left_out.merge(found.declared);
-    std::erase_if(result.left_out, [](const std::string& name) { return isBuilt(name); });
+    result.ignored_extensions = std::move(found.extensions);
+    result.ignored_extensions.merge(found.declared);
+    std::erase_if(result.ignored_extensions, [](const std::string& name) { return isBuilt(name); });
     const Json buffers = std::move(document["buffers"]), images = std::move(document["images"]);
     parseModel(takeTinygltfPart(document), result.model);
     result.model.rest = std::move(document);

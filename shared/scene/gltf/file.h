@@ -21,8 +21,8 @@ struct Document {
     Model model;
     Resources resources;  // loads images on demand
     ImageLights image_lights;
-    Variants variants;               // primitives have the chosen one's materials
-    std::set<std::string> left_out;  // extensions that the file uses but this reader ignores
+    Variants variants;                         // primitives have the chosen one's materials
+    std::set<std::string> ignored_extensions;  // extensions that the file uses but this reader ignores
     std::map<std::size_t, std::string> broken_meshes = {};  // why each was omitted
     std::vector<std::string> notes;                         // repairs and omissions, one line each
 };

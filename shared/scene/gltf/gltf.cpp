@@ -91,7 +91,7 @@ Scene readScene(std::vector<unsigned char> bytes, const std::filesystem::path& f
     gltf::Document document = gltf::open(std::move(bytes), folder, variant);
     Scene scene;
     gltf::NoteList unsupported("extensions");
-    for (const std::string& name : document.left_out)
+    for (const std::string& name : document.ignored_extensions)
         unsupported.add(
             fmt::format("{}: left out, not supported{}", name,
                         name == "KHR_lights_image_based" ? "; --env FILE sets an environment" : ""));

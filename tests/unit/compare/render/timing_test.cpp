@@ -13,10 +13,10 @@ namespace {
 // them.
 TEST(Timing, FramesAreDrawnInTurns) {
     std::vector<std::pair<int, std::size_t>> order;
-    takeTurns(2, 3, [&](int round, std::size_t i) { order.emplace_back(round, i); });
+    interleave(2, 3, [&](int round, std::size_t i) { order.emplace_back(round, i); });
     EXPECT_EQ(order,
               (std::vector<std::pair<int, std::size_t>>{{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}}));
-    takeTurns(0, 3, [](int, std::size_t) { ADD_FAILURE() << "no round"; });
+    interleave(0, 3, [](int, std::size_t) { ADD_FAILURE() << "no round"; });
 }
 
 TEST(Timing, RecordingHasATimeOfItsOwn) {

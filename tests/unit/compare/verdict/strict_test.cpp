@@ -46,7 +46,7 @@ Report againstBaseline(const std::vector<Channel>& without, const std::string& m
     Frame baseline = fewChannels()[0];
     baseline.name = "baseline";
     baseline.origin = {"b.exr", "a CPU", "1.0", "abc"};
-    if (!more.empty()) baseline.origin.left_out = {more};
+    if (!more.empty()) baseline.origin.omitted_channels = {more};
     for (const Channel mode : without) baseline.channels.erase(mode);
     return makeReport({{fewChannels()}}, strictDevice, strictly(strict), baseline);
 }
@@ -148,7 +148,7 @@ TEST(Strict, AChannelOfTheBaselineThatWeDoNotKnowIsSaid) {
     const Image lit(4, 3, 3, 0.5f), other(4, 3, 1, 1.0f);
     writeExr(file, {{{"R", "G", "B"}, &lit}, {{"mystery.Y"}, &other}});
     Frame baseline = frameFromExr(file);
-    EXPECT_EQ(baseline.origin.left_out, Lines{"mystery"});
+    EXPECT_EQ(baseline.origin.omitted_channels, Lines{"mystery"});
     for (const bool strict : {false, true}) {
         const Report report = makeReport({{fewChannels()}}, strictDevice, strictly(strict), baseline);
         const Comparison& c = report.comparisons[0];

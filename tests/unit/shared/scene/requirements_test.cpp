@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/scene/requirements.h"
 
-#include "compare/render/left_out.h"
+#include "compare/render/omitted_lights.h"
 #include "shared/contract/material.h"
 #include "tests/support/shapes.h"
 
@@ -47,13 +47,13 @@ TEST(Requirements, SunsWithoutAShadowAreNamed) {
     Settings settings;
     settings.shadows = Shadows::evsm;
     EXPECT_EQ(
-        leftOutShadows(lights, settings),
+        omittedShadows(lights, settings),
         std::vector<std::string>{
             "only the brightest of 3 directional lights, noon, casts a shadow; these do not: light 0, dusk"});
     settings.shadows = Shadows::off;
-    EXPECT_TRUE(leftOutShadows(lights, settings).empty());
+    EXPECT_TRUE(omittedShadows(lights, settings).empty());
     settings.shadows = Shadows::pcf;
-    EXPECT_TRUE(leftOutShadows({lights[1], lights[2]}, settings).empty());
+    EXPECT_TRUE(omittedShadows({lights[1], lights[2]}, settings).empty());
 }
 
 }  // namespace
@@ -350,14 +350,14 @@ TEST(Requirements, AreaLightsAndEnvironmentsAreModelledDiscsOfSunsLeftOut) {
 
 TEST(Requirements, APathSaysWhatLightItLeavesOut) {
     Requirements needs;
-    EXPECT_TRUE(leftOutLight(Path::deferred, needs).empty());
+    EXPECT_TRUE(omittedLights(Path::deferred, needs).empty());
     needs.light_counts.fill(1);
     needs.sun_discs = 1;
     needs.environment = "sky.exr";
     const std::vector<std::string> expected{"1 sun disc: not rendered by deferred yet; the reference has it"};
-    EXPECT_EQ(leftOutLight(Path::deferred, needs), expected);
-    EXPECT_EQ(leftOutLight(Path::forward_plus, needs).size(), 1u);
-    EXPECT_TRUE(leftOutLight(Path::reference, needs).empty()) << "it draws all";
+    EXPECT_EQ(omittedLights(Path::deferred, needs), expected);
+    EXPECT_EQ(omittedLights(Path::forward_plus, needs).size(), 1u);
+    EXPECT_TRUE(omittedLights(Path::reference, needs).empty()) << "it draws all";
 }
 
 // Counted once per mesh, whatever its number of primitives. A target with weight 0 has no effect.

@@ -11,9 +11,9 @@
 namespace diptych {
 
 // One note for each type of light in the scene that the path does not support; the reference supports all.
-std::vector<std::string> leftOutLight(Path path, const Requirements& needs);
+std::vector<std::string> omittedLights(Path path, const Requirements& needs);
 
 // Lights that cast no shadow although shadows are enabled.
-std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const Settings& settings);
+std::vector<std::string> omittedShadows(const std::vector<Light>& lights, const Settings& settings);
 
 }  // namespace diptych

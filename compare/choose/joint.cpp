@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/choose/common.h"
+#include "compare/choose/joint.h"
 
 #include "compare/experiment/intervals.h"
 
@@ -20,13 +20,13 @@ Settings withoutCamera(Settings settings) {
     return settings;
 }
 
-class CommonSearch {
+class JointSearch {
 public:
-    CommonSearch(std::span<const SettingsChoice* const> own,
-                 const std::function<Evaluator&(std::size_t)>& evaluatorOf, const CommonOptions& options)
+    JointSearch(std::span<const SettingsChoice* const> own,
+                const std::function<Evaluator&(std::size_t)>& evaluatorOf, const JointOptions& options)
         : own_(own), evaluatorOf_(evaluatorOf), options_(options), budget_(options.budget) {}
 
-    CommonChoice run() {
+    JointChoice run() {
         propose();
         inEachScene(0, 0.5, "errors for all scenes", [&](std::size_t scene) { evaluateIn(scene); });
         std::vector<std::size_t> fit;
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    std::vector<CommonCandidate>& all() { return found_.candidates; }
+    std::vector<JointCandidate>& all() { return found_.candidates; }
 
     // Visits every scene. Alternates the direction, so that the last scene is still loaded.
     template <class Do>
@@ -113,7 +113,7 @@ private:
             return std::pair(proposal.tier, std::numeric_limits<std::size_t>::max() - proposal.scenes.size());
         });
         const std::size_t taken = std::min(proposals.size(), options_.max_candidates);
-        found_.left_out = proposals.size() - taken;
+        found_.omitted = proposals.size() - taken;
         for (std::size_t i = 0; i < taken; ++i)
             all().push_back({.settings = proposals[i].settings,
                              .proposed_by = proposals[i].scenes.size(),
@@ -122,7 +122,7 @@ private:
 
     void evaluateIn(std::size_t scene) {
         Evaluator* evaluator = nullptr;
-        for (CommonCandidate& candidate : all()) {
+        for (JointCandidate& candidate : all()) {
             const Candidate* known = nullptr;
             for (const Candidate& own : own_[scene]->candidates)
                 if (own.isEvaluated() && withoutCamera(own.settings) == candidate.settings) known = &own;
@@ -243,7 +243,7 @@ private:
     void setWinner(const std::vector<std::size_t>& finalists, const Ranking& result, const Rounds& rounds) {
         static_cast<Race&>(found_) = raceOf(result, finalists);
         for (std::size_t k = 0; k < finalists.size(); ++k) {
-            CommonCandidate& candidate = all()[finalists[k]];
+            JointCandidate& candidate = all()[finalists[k]];
             candidate.race = result.ratios[k];
             for (std::size_t scene = 0; scene < own_.size(); ++scene)
                 candidate.scenes[scene].measured[Measure::ms] =
@@ -280,18 +280,18 @@ private:
 
     std::span<const SettingsChoice* const> own_;
     const std::function<Evaluator&(std::size_t)>& evaluatorOf_;
-    const CommonOptions& options_;
+    const JointOptions& options_;
     const Budget& budget_;
     bool backwards_ = false, timed_ = false;
-    CommonChoice found_;
+    JointChoice found_;
 };
 
 }  // namespace
 
-CommonChoice chooseForAll(std::span<const SettingsChoice* const> own,
+JointChoice chooseJointly(std::span<const SettingsChoice* const> own,
                           const std::function<Evaluator&(std::size_t)>& evaluatorOf,
-                          const CommonOptions& options) {
-    return CommonSearch(own, evaluatorOf, options).run();
+                          const JointOptions& options) {
+    return JointSearch(own, evaluatorOf, options).run();
 }
 
 }  // namespace diptych::choose

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/render/left_out.h"
+#include "compare/render/omitted_lights.h"
 
 #include "shared/scene/lights/casters.h"
 #include "shared/text/counted.h"
@@ -20,7 +20,7 @@ std::string nameOf(const Light& light, std::size_t index) {
 
 }  // namespace
 
-std::vector<std::string> leftOutLight(Path path, const Requirements& needs) {
+std::vector<std::string> omittedLights(Path path, const Requirements& needs) {
     std::vector<std::string> notes;
     if (isReference(path)) return notes;
     const auto note = [&](const std::string& what, bool one) {
@@ -31,7 +31,7 @@ std::vector<std::string> leftOutLight(Path path, const Requirements& needs) {
     return notes;
 }
 
-std::vector<std::string> leftOutShadows(const std::vector<Light>& lights, const Settings& settings) {
+std::vector<std::string> omittedShadows(const std::vector<Light>& lights, const Settings& settings) {
     const std::optional<std::size_t> sun = brightestSun(lights);
     if (settings.shadows == Shadows::off || !sun) return {};
     std::vector<std::string> others;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A joint choice for several scenes with known times and errors.
-#include "compare/choose/common.h"
+#include "compare/choose/joint.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ private:
 
 // Each scene's own choice among all four, then the joint choice.
 struct ForAll {
-    ForAll(const std::vector<std::vector<Known>>& scenes, const Budget& budget, CommonOptions options = {}) {
+    ForAll(const std::vector<std::vector<Known>>& scenes, const Budget& budget, JointOptions options = {}) {
         std::vector<const SettingsChoice*> pointers;
         const std::vector<Settings> candidates{standardOne, forwardOne, compactOne, fullOne};
         for (const std::vector<Known>& scene : scenes) {
@@ -82,13 +82,13 @@ struct ForAll {
         options.budget = budget;
         std::vector<KnownEvaluator*> by_number;
         for (KnownEvaluator& evaluator : labs) by_number.push_back(&evaluator);
-        result = chooseForAll(
+        result = chooseJointly(
             pointers, [&](std::size_t i) -> Evaluator& { return *by_number[i]; }, options);
     }
     const Settings& chosen() const { return result.candidates.at(result.chosen.value()).settings; }
     std::list<KnownEvaluator> labs;
     std::vector<SettingsChoice> own;
-    CommonChoice result;
+    JointChoice result;
 };
 
 // No scene chooses forward+. It takes 1.2 times each scene's best time, while each scene's own choice
@@ -119,7 +119,7 @@ TEST(ChooseForAll, WhatExceedsTheErrorInOneSceneIsOut) {
     ASSERT_TRUE(all.result.chosen);
     EXPECT_EQ(all.own[0].candidates[*all.own[0].chosen].settings, compactOne);
     EXPECT_EQ(all.chosen(), standardOne);
-    for (const CommonCandidate& candidate : all.result.candidates)
+    for (const JointCandidate& candidate : all.result.candidates)
         EXPECT_EQ(candidate.fits, candidate.settings == standardOne || candidate.settings == forwardOne);
     EXPECT_NEAR(all.result.slower[0]->ratio, 10, 0.5);
     EXPECT_EQ(all.result.slower[1]->ratio, 1) << "the second scene's own choice";
@@ -133,7 +133,7 @@ TEST(ChooseForAll, WhereNothingFitsAllTheNearestIsNamedWithItsScene) {
     EXPECT_FALSE(all.result.chosen);
     ASSERT_TRUE(all.result.nearest);
     // Compact's worst error is 0.4, in the second scene; every other candidate reaches 0.5 in some scene.
-    const CommonCandidate& nearest = all.result.candidates[*all.result.nearest];
+    const JointCandidate& nearest = all.result.candidates[*all.result.nearest];
     const std::size_t scene = all.result.nearest_scene;
     EXPECT_EQ(nearest.settings, compactOne);
     EXPECT_EQ(scene, 1u);
@@ -147,22 +147,22 @@ TEST(ChooseForAll, TheLeastWorstErrorWithinTheTimeOfEveryScene) {
                      {.error = {}, .ms = 20, .bytes = {}});
     ASSERT_TRUE(all.result.chosen);
     EXPECT_EQ(all.chosen(), standardOne) << "as accurate at worst as forward+, and faster";
-    for (const CommonCandidate& candidate : all.result.candidates)
+    for (const JointCandidate& candidate : all.result.candidates)
         if (candidate.settings == fullOne) {
             EXPECT_FALSE(candidate.fits);
         }
 }
 
 TEST(ChooseForAll, WhatIsLeftOutIsCounted) {
-    CommonOptions options;
+    JointOptions options;
     options.max_candidates = 2;
     const ForAll all({{{10, 0.01}, {22, 0.01}, {30, 0.01}, {12, 0.01}},
                       {{220, 0.01}, {100, 0.01}, {300, 0.01}, {120, 0.01}}},
                      {.error = 0.02, .ms = {}, .bytes = {}}, options);
     ASSERT_EQ(all.result.candidates.size(), 2u);
-    for (const CommonCandidate& candidate : all.result.candidates)
+    for (const JointCandidate& candidate : all.result.candidates)
         EXPECT_EQ(candidate.proposed_by, 2u) << "a first one of both scenes, and once each";
-    EXPECT_EQ(all.result.left_out, 1u) << "compact; full was not drawn: it is slower";
+    EXPECT_EQ(all.result.omitted, 1u) << "compact; full was not drawn: it is slower";
 }
 
 // If nothing fits the budget, a scene proposes its path's first candidate and its most accurate one.
@@ -177,9 +177,9 @@ TEST(ChooseForAll, OfCandidatesAsAccurateTheFirstIsProposed) {
     }
     KnownEvaluator evaluator({});
     const SettingsChoice* const pointer = &own;
-    CommonOptions options;
+    JointOptions options;
     options.budget = {.error = 0.02, .ms = {}, .bytes = {}};
-    const CommonChoice all = chooseForAll(
+    const JointChoice all = chooseJointly(
         std::span(&pointer, 1), [&](std::size_t) -> Evaluator& { return evaluator; }, options);
     ASSERT_EQ(all.candidates.size(), 2u);
     EXPECT_EQ(all.candidates[0].settings, compactOne);

@@ -16,7 +16,7 @@
 
 namespace diptych::choose {
 
-struct CommonOptions {
+struct JointOptions {
     Budget budget;  // for every scene
     // Maximum candidates; those that most scenes propose come first.
     std::size_t max_candidates = 16;
@@ -24,7 +24,7 @@ struct CommonOptions {
     std::function<void(double, std::string_view)> progress = {};
 };
 
-struct CommonCandidate {
+struct JointCandidate {
     Settings settings;            // without a camera
     std::size_t proposed_by = 0;  // count of scenes
     // In order of the choices. Times are geometric means: from the scene's own choice until raced.
@@ -33,9 +33,9 @@ struct CommonCandidate {
     std::optional<TimeRatio> race{};  // over the winner; geometric means over all scenes
 };
 
-struct CommonChoice : Outcome {
-    std::vector<CommonCandidate> candidates;
-    std::size_t left_out = 0;
+struct JointChoice : Outcome {
+    std::vector<JointCandidate> candidates;
+    std::size_t omitted = 0;
     // By scene: its time over that of the scene's own choice, at 95 % confidence; empty if there is none.
     std::vector<std::optional<TimeRatio>> slower;
     std::size_t nearest_scene = 0;  // the one with the nearest candidate's largest miss
@@ -43,8 +43,8 @@ struct CommonChoice : Outcome {
 
 // `own`: choices of at least one scene for this budget. `evaluatorOf`: evaluator of a scene by index, valid
 // until the next call. Throws what evaluators throw.
-CommonChoice chooseForAll(std::span<const SettingsChoice* const> own,
+JointChoice chooseJointly(std::span<const SettingsChoice* const> own,
                           const std::function<Evaluator&(std::size_t)>& evaluatorOf,
-                          const CommonOptions& options);
+                          const JointOptions& options);
 
 }  // namespace diptych::choose
