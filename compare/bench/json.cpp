@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/bench/findings.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 
 namespace diptych::bench {
 namespace {

@@ -121,20 +121,20 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     Device device(deviceOptions(options));
     const std::unique_ptr<Device> other = againstDevice(options);
     logVerbose(options, "on " + device.info().name + (other ? " and " + other->info().name : ""));
-    ReferenceCheckpoints kept(folder, true);
+    ReferenceCheckpoints checkpoints(folder, true);
     RenderOptions render = evaluatedOptions(renderOptions(options), settings, isTraced(settings, baseline),
                                             other != nullptr, options.twice);
-    render.keep = kept.opener();
+    render.keep = checkpoints.opener();
     const std::string& name = options.scenes.front();
     const Stage drawn_stage = Stage(progress, name).part(0, experiment::fractionsOf(render).drawn);
     const double loading = loadingFraction(name, render, settings.size());
     const Scene scene = loadSceneWithSettings(name, options.settings, drawn_stage.part(0, loading));
     if (!options.allow_empty) requireTriangles(scene, name);
-    const double ours = loading + compared.ourFraction() * (1 - loading);
-    render.progress = drawn_stage.part(loading, ours);
+    const double drawn_part = loading + compared.pathsFraction() * (1 - loading);
+    render.progress = drawn_stage.part(loading, drawn_part);
     experiment::Devices devices(device, other.get(), false);
     experiment::DrawnScene drawn =
-        experiment::drawScene(scene, compared, settings, devices, render, drawn_stage.part(ours, 1));
+        experiment::drawScene(scene, compared, settings, devices, render, drawn_stage.part(drawn_part, 1));
     for (const Device* of : devices.all()) checkValidation(*of);
     std::string updated;
     if (options.update_baseline)
@@ -157,9 +157,9 @@ int compareOneScene(const CompareLine& options, const std::vector<Settings>& set
     const std::string json = writeReport(report, folder,
                                          {image, options.single_file, options.keep, options.force,
                                           stage.part(explained, 1), std::nullopt, since});
-    kept.remove();
+    checkpoints.remove();
     progress.wipe();
-    noteLeftByOthers(options, kept);
+    noteLeftByOthers(options, checkpoints);
     printResult(
         options, json,
         fmt::format("{}{}pictures: {}\nreport: {}\n", reportTable(report), sinceText(since.get(), report),

@@ -106,16 +106,16 @@ void leave(const ExplainLine& options, const ImageChoice& image, const Explanati
 }
 
 // The view of `ours`, rendered by the one --renderer.
-Frame drawnByOther(const ExplainLine& options, SceneViews& views, const Frame& ours, Renderer& drawing,
+Frame drawnByOther(const ExplainLine& options, SceneViews& views, const Frame& own, Renderer& drawing,
                    const RenderOptions& render) {
     const external::ExternalRenderer& renderer = options.renderers.front();
-    external::Attempt attempt = external::drawExternally(renderer, views.scene(),
-                                                         views.at(viewRequest(ours.settings)), ours.settings);
+    external::Attempt attempt =
+        external::drawExternally(renderer, views.scene(), views.at(viewRequest(own.settings)), own.settings);
     if (!attempt.frame)
         refuse("renderer {} ({}): {}", renderer.name, renderer.file.string(), attempt.problem);
     for (const std::string& line : attempt.frame->notes)
-        if (std::ranges::count(ours.notes, line) == 0) note(options, line);
-    return substituteChannels(*attempt.frame, ours, drawing, render);
+        if (std::ranges::count(own.notes, line) == 0) note(options, line);
+    return substituteChannels(*attempt.frame, own, drawing, render);
 }
 
 // Checks the options of one scene. Returns the baseline's Settings.

@@ -195,15 +195,15 @@ int runFrames(const RenderLine& options) {
         const double each = (1 - loading) / options.frames, begun = loading + each * i;
         const Stage drawing = stage.part(begun, begun + each);
         render.progress = drawing.part(0, drawnFraction(render));
-        ReferenceCheckpoints kept(writer.output().path, writer.output().kind == OutputKind::folder);
-        render.keep = kept.opener();
+        ReferenceCheckpoints checkpoints(writer.output().path, writer.output().kind == OutputKind::folder);
+        render.keep = checkpoints.opener();
         const Frame frame = source.draw(settings, render);
         if (device) checkValidation(*device);
         drawing.at(drawnFraction(render), "write");
         progress.wipe();
         writer.write(frame, i);
-        kept.remove();
-        if (i + 1 == options.frames) noteLeftByOthers(options, kept);
+        checkpoints.remove();
+        if (i + 1 == options.frames) noteLeftByOthers(options, checkpoints);
     }
     progress.wipe();
     writer.finish();

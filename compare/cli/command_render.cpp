@@ -3,8 +3,8 @@
 
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
 #include "compare/report/exposure_line.h"
 #include "compare/run/print.h"
@@ -46,10 +46,10 @@ int listScenes(const RenderLine& options) {
 }
 
 std::vector<Frame> drawAll(const RenderLine& options, const std::vector<Settings>& settings, Device* device,
-                           ReferenceCheckpoints& kept, Progress& progress) {
+                           ReferenceCheckpoints& checkpoints, Progress& progress) {
     const Output output = outputIn(options);
     RenderOptions render = renderOptions(options);
-    render.keep = kept.opener();
+    render.keep = checkpoints.opener();
     render.channels = channelsFor(output.kind, options, render.channels);
     std::vector<Frame> frames;
     const double drawn = drawnFraction(render);
@@ -130,8 +130,9 @@ int runRender(const RenderLine& options) {
     logVerbose(options, "on " + made.name);
     Json result = resultOf(made);
     // Render everything before writing, so that an unreadable scene leaves no partial folder.
-    ReferenceCheckpoints kept(output.path, output.kind == OutputKind::folder);
-    const std::vector<Frame> frames = drawAll(options, settings, device ? &*device : nullptr, kept, progress);
+    ReferenceCheckpoints checkpoints(output.path, output.kind == OutputKind::folder);
+    const std::vector<Frame> frames =
+        drawAll(options, settings, device ? &*device : nullptr, checkpoints, progress);
     for (const Frame& frame : frames) {
         result["frames"].push_back(jsonOf(frame));
         result["frames"].back()["file"] = output.path.string();
@@ -139,9 +140,9 @@ int runRender(const RenderLine& options) {
     const std::vector<std::filesystem::path> targets =
         writeAll(options, image, frames, result, made,
                  Stage(progress, output.path.string()).part(drawnFraction(renderOptions(options)), 1));
-    kept.remove();
+    checkpoints.remove();
     progress.wipe();
-    noteLeftByOthers(options, kept);
+    noteLeftByOthers(options, checkpoints);
     for (std::size_t i = 0; i < frames.size() && !options.json && !options.quiet; ++i) {
         const Frame& frame = frames[i];
         printOut("{}: {}, {}x{}{}\n", targets[i].string(), frame.scene, frame.settings.size.width,
@@ -166,7 +167,7 @@ std::filesystem::path numbered(const std::filesystem::path& folder, std::size_t 
 }
 
 void checkFolder(const Output& output, std::size_t count, bool force) {
-    const bool single = output.kind != OutputKind::folder || isOurManifest(output.path / single_manifest);
+    const bool single = output.kind != OutputKind::folder || isDiptychManifest(output.path / single_manifest);
     checkReplaceable(output, single ? single_manifest : frames_manifest, force);
     for (std::size_t i = 0; count > 1 && i < count; ++i)
         checkReplaceable({OutputKind::folder, numbered(output.path, i)}, single_manifest, force);
@@ -176,9 +177,9 @@ std::vector<std::string> earlierIn(const Output& output, std::size_t count, bool
     checkFolder(output, count, force);
     const std::filesystem::path& folder = output.path;
     std::vector<std::string> names = manifestFiles(folder, single_manifest);
-    if (!isOurManifest(folder / frames_manifest)) return names;
+    if (!isDiptychManifest(folder / frames_manifest)) return names;
     std::ranges::move(manifestFiles(folder, frames_manifest), std::back_inserter(names));
-    for (std::size_t i = 0; isOurManifest(numbered(folder, i) / single_manifest); ++i)
+    for (std::size_t i = 0; isDiptychManifest(numbered(folder, i) / single_manifest); ++i)
         for (const std::string& name : manifestFiles(numbered(folder, i), single_manifest))
             names.push_back(fmt::format("{}/{}", i + 1, name));
     return names;

@@ -6,8 +6,8 @@
 #include "compare/cli/scene_items.h"
 #include "compare/experiment/grid.h"
 #include "compare/files/checkpoint_folder.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/listed_folder.h"
-#include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
 #include "compare/files/scene_folders.h"
 #include "compare/report/titles.h"
@@ -126,7 +126,7 @@ void showMany(const OutputGroup& options, const fs::path& folder, const shards::
 OpenFolder heldOutput(const fs::path& folder) {
     OpenFolder open = OpenFolder::at(folder);
     if (!open.isOpen()) throw std::runtime_error(writingFailed(folder, errno));
-    open.hold();
+    open.pin();
     return open;
 }
 
@@ -144,15 +144,15 @@ int tradeoffMany(const TradeoffLine& options, const fs::path& folder, const expe
     const nlohmann::ordered_json asked =
         askedOf(options, {options.settings}, {{"command", "tradeoff"}, {"grid", options.grid}});
     const shards::SceneItems items = itemsOf(options, asked);
-    CheckpointFolder kept(folder, "scenes", resumeKey(options, asked));
+    CheckpointFolder checkpoints(folder, "scenes", resumeKey(options, asked));
     shards::Manifest manifest{shards::buildName(), "tradeoff", items.plan, items.shard, items.all, {}};
     std::vector<const shards::Item*> done;
-    if (!isOurManifest(folder / tradeoffsManifest)) writePage(options, folder, manifest, {});
+    if (!isDiptychManifest(folder / tradeoffsManifest)) writePage(options, folder, manifest, {});
     const OpenFolder scenes = heldOutput(folder);
     for (const shards::Item* item : items.mine) {
         const std::string name = shards::partOf(*item);
-        if (kept.find(name) == shards::stampOf(item->scene) &&
-            isOurManifest(folder / item->folder / tradeoffManifest)) {
+        if (checkpoints.find(name) == shards::stampOf(item->scene) &&
+            isDiptychManifest(folder / item->folder / tradeoffManifest)) {
             done.push_back(item);
             continue;
         }
@@ -163,7 +163,7 @@ int tradeoffMany(const TradeoffLine& options, const fs::path& folder, const expe
         one.quiet = options.quiet || options.json;
         const auto error = shards::attempt(item->scene, [&] {
             sweepOne(one, rows);
-            kept.keep(name, shards::stampOf(item->scene));
+            checkpoints.keep(name, shards::stampOf(item->scene));
             done.push_back(item);
         });
         if (!error) continue;
@@ -174,7 +174,7 @@ int tradeoffMany(const TradeoffLine& options, const fs::path& folder, const expe
         refuse("none of {} can be rendered; the first: {}", counted(items.all.size(), "scene"),
                manifest.errors.front().message);
     const int code = finish(options, folder, manifest, done);
-    kept.remove();
+    checkpoints.remove();
     return code;
 }
 

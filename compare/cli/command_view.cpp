@@ -4,7 +4,7 @@
 #include "compare/cli/add_option.h"
 #include "compare/cli/command.h"
 #include "compare/cli/command_line.h"
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/viewer/interface/keys.h"
 #include "compare/viewer/viewer.h"
 #include "shared/frame/debug_modes.h"
@@ -102,7 +102,7 @@ JsonValue chosenChannel(const JsonValue& channels, const ViewLine& options) {
 ReportedView readReport(const ViewLine& options) {
     const std::filesystem::path file = options.report / "report.json";
     return named("--report " + options.report.string(), [&] {
-        if (!isOurManifest(file))
+        if (!isDiptychManifest(file))
             fail("is not a report folder written by compare: it has no report.json of Diptych");
         static const std::set<std::string> wanted{"comparisons", "scene", "command", "channels",
                                                   "number",      "name",  "verdict", "worst_pixel"};

@@ -310,8 +310,8 @@ std::unique_ptr<Device> againstDevice(const DeviceGroup& options) {
     return std::make_unique<Device>(DeviceOptions{options.against_device, options.validate});
 }
 
-void noteLeftByOthers(const OutputGroup& options, const ReferenceCheckpoints& kept) {
-    if (const std::string line = kept.leftByOthers(); !line.empty()) note(options, line);
+void noteLeftByOthers(const OutputGroup& options, const ReferenceCheckpoints& checkpoints) {
+    if (const std::string line = checkpoints.leftByOthers(); !line.empty()) note(options, line);
 }
 
 }  // namespace diptych::cli

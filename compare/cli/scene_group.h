@@ -117,6 +117,6 @@ DeviceOptions deviceOptions(const DeviceGroup& options);
 std::unique_ptr<Device> againstDevice(const DeviceGroup& options);
 
 // Calls note() for unfinished references of other commands with the same output.
-void noteLeftByOthers(const OutputGroup& options, const ReferenceCheckpoints& kept);
+void noteLeftByOthers(const OutputGroup& options, const ReferenceCheckpoints& checkpoints);
 
 }  // namespace diptych::cli

@@ -2,7 +2,7 @@
 #include "compare/cli/scene_items.h"
 
 #include "compare/files/checkpoint_folder.h"
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/report/folders.h"
 #include "shared/image/limits.h"
 #include "shared/text/input_file.h"

@@ -31,7 +31,7 @@ struct Compared {
     bool withReference() const { return isReference(baseline) && !from_file; }
     std::vector<Path> paths() const;
     // Fraction of a scene's rendering time that is not spent in external renderers, 0 to 1.
-    double ourFraction() const { return renderers.empty() ? 1 : 0.5; }
+    double pathsFraction() const { return renderers.empty() ? 1 : 0.5; }
 };
 
 // Fractions of a scene's time after which rendering and comparing end. Per Frame, comparing takes one

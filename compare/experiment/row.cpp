@@ -141,13 +141,13 @@ void joinCameras(Row& row) {
         }
 }
 
-Spread spreadOf(const Row& row, Measure measure) {
-    Spread spread{row[measure], row[measure], row[measure]};
+CameraRange cameraRangeOf(const Row& row, Measure measure) {
+    CameraRange range{row[measure], row[measure], row[measure]};
     for (const Row& camera : row.cameras) {
-        spread.low = std::min(spread.low, camera[measure]);
-        spread.high = std::max(spread.high, camera[measure]);
+        range.low = std::min(range.low, camera[measure]);
+        range.high = std::max(range.high, camera[measure]);
     }
-    return spread;
+    return range;
 }
 
 Json jsonOf(const Row& row) {

@@ -72,10 +72,10 @@ void joinBlocks(Row& row);
 void joinCameras(Row& row);
 
 // The row's value, and the least and greatest of a single camera.
-struct Spread {
+struct CameraRange {
     double value = 0, low = 0, high = 0;
 };
-Spread spreadOf(const Row& row, Measure measure);
+CameraRange cameraRangeOf(const Row& row, Measure measure);
 
 // Numbers with all digits. A group that was not measured is null, and so is an infinite number.
 nlohmann::ordered_json jsonOf(const Row& row);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/experiment/row_checkpoint.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "compare/reference/key.h"
 #include "compare/run/version.h"
 

@@ -27,9 +27,9 @@ nlohmann::ordered_json keyOf(const std::string& scene, const std::string& truth,
 // read(JSON) of a kept result, an optional; empty if there is none. A damaged one, for which `read` throws,
 // is measured again.
 template <class Read>
-auto findCheckpoint(const CheckpointFolder& kept, const std::string& name, Read&& read)
+auto findCheckpoint(const CheckpointFolder& checkpoints, const std::string& name, Read&& read)
     -> decltype(read(nlohmann::ordered_json())) {
-    const nlohmann::ordered_json json = kept.find(name);
+    const nlohmann::ordered_json json = checkpoints.find(name);
     if (json.is_null()) return {};
     try {
         return read(json);

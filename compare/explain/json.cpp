@@ -2,8 +2,8 @@
 // Explanations and breakdowns of pixels as JSON.
 #include "compare/explain/pixel_breakdown.h"
 #include "compare/explain/write.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "shared/contract/debug_mode.h"
 
 #include <fmt/format.h>

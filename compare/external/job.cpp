@@ -2,9 +2,9 @@
 #include "compare/external/job.h"
 
 #include "compare/external/scene_gltf.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/gltf_file.h"
-#include "compare/files/our_files.h"
 #include "compare/frames/frame_properties.h"
 #include "compare/run/version.h"
 #include "shared/image/atomic_file.h"

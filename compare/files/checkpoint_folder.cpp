@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/checkpoint_folder.h"
 
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/output.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/json.h"
@@ -43,7 +43,7 @@ CheckpointFolder::CheckpointFolder(const fs::path& out, const std::string& what,
         folder_.names(), [](const std::string& name) { return !isTemporaryOf(keyFile, name); });
     if (holdsOthers && !isOurs(there))
         throw std::runtime_error(path().string() + ": exists and was not written by diptych; move it away");
-    folder_.hold();
+    folder_.pin();
     folder_.removeLinks();  // planted links must not lose results
     if (there == key) return;
     renewed_ = holdsOthers;

@@ -12,7 +12,7 @@ namespace diptych {
 
 // Checkpoint of a long command: finished parts in ".NAME.what" beside its output NAME. The next run can
 // resume however this one ends. Only one program at a time can open it. All paths below it are held
-// (OpenFolder::hold).
+// (OpenFolder::pin).
 class CheckpointFolder {
 public:
     // `key`: all inputs of the parts. Removes parts of another key. Throws std::runtime_error naming the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/file_moves.h"
 
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/json.h"
 #include "shared/text/open_folder.h"
@@ -104,7 +104,7 @@ std::vector<std::string> namesIn(const nlohmann::json& json, const char* key) {
     std::vector<std::string> names;
     if (json.contains(key) && json[key].is_array())
         for (const auto& name : json[key])
-            if (name.is_string() && isOurName(name.get<std::string>())) names.push_back(name);
+            if (name.is_string() && isDiptychFileName(name.get<std::string>())) names.push_back(name);
     return names;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/frame_exr.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/layers.h"
-#include "compare/files/our_files.h"
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/layers.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/layer_kinds.h"
-#include "compare/files/our_files.h"
 #include "shared/text/did_you_mean.h"
 #include "shared/text/fail.h"
 #include "shared/text/one_line.h"

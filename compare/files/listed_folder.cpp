@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/listed_folder.h"
 
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/output.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/json_text.h"

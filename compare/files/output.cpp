@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/output.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/linked_file.h"
-#include "compare/files/our_files.h"
 #include "compare/files/output_folder.h"
 #include "shared/image/atomic_file.h"
 
@@ -85,11 +85,11 @@ void checkReplaceable(const Output& output, const std::string& manifest, bool fo
     if (output.kind == OutputKind::folder && fs::is_directory(output.path, error)) finishOutput(output.path);
     const fs::file_status there = fs::status(output.path, error);
     if (!fs::exists(there) || force) return;
-    const bool ours =
+    const bool written_by_diptych =
         output.kind == OutputKind::folder
-            ? fs::is_directory(there) && (isEmpty(output.path) || isOurManifest(output.path / manifest))
-            : fs::is_regular_file(there) && isOurImage(output.path);
-    if (!ours) fail(output.path, "exists and was not written by diptych; --force replaces it");
+            ? fs::is_directory(there) && (isEmpty(output.path) || isDiptychManifest(output.path / manifest))
+            : fs::is_regular_file(there) && isDiptychImage(output.path);
+    if (!written_by_diptych) fail(output.path, "exists and was not written by diptych; --force replaces it");
 }
 
 std::vector<std::string> replaceable(const fs::path& folder, const std::string& manifest, bool force) {

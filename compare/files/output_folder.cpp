@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "compare/files/output_folder.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/file_moves.h"
 #include "compare/files/folder_lock.h"
 #include "compare/files/linked_file.h"
-#include "compare/files/our_files.h"
 
 #include "shared/image/atomic_file.h"
 #include "shared/text/input_file.h"
@@ -35,7 +35,7 @@ namespace {
 fs::path nameOf(const fs::path& folder) {
     fs::path path = fs::absolute(folder).lexically_normal();
     if (!path.has_filename()) path = path.parent_path();
-    return OpenFolder::isBelowHeld(path) ? path : linkedFile(path);
+    return OpenFolder::isBelowPinned(path) ? path : linkedFile(path);
 }
 
 void copy(InputFile& from, const OpenFolder& folder, const fs::path& to) {
@@ -77,16 +77,16 @@ bool isWritable(const OpenFolder& folder) {
 
 // Whether the folder can be replaced: it contains only the regular files `ours`, their folders, and `aside`.
 // `below`: empty, or the names' beginning.
-bool holdsOnly(const OpenFolder& folder, const std::set<std::string>& ours, const std::string& below,
+bool holdsOnly(const OpenFolder& folder, const std::set<std::string>& written, const std::string& below,
                const std::string& aside) {
     return isWritable(folder) && std::ranges::all_of(folder.names(), [&](const std::string& name) {
                const mode_t mode = folder.status(name).st_mode;
-               if (below + name == aside || (S_ISREG(mode) && ours.contains(below + name))) return true;
+               if (below + name == aside || (S_ISREG(mode) && written.contains(below + name))) return true;
                const std::string inside = below + name + "/";
-               const auto first = ours.lower_bound(inside);
+               const auto first = written.lower_bound(inside);
                const OpenFolder inner = folder.find(name);
-               return inner.isOpen() && first != ours.end() && first->starts_with(inside) &&
-                      holdsOnly(inner, ours, inside, aside);
+               return inner.isOpen() && first != written.end() && first->starts_with(inside) &&
+                      holdsOnly(inner, written, inside, aside);
            });
 }
 
@@ -116,9 +116,9 @@ bool isReplaceable(const OpenFolder& folder, const OpenFolder& fresh) {
 }
 
 // Moves files that other programs created in the old folder during the exchange.
-void rescue(const OpenFolder& from, const OpenFolder& to, const std::vector<std::string>& ours) {
-    for (const std::string& name : ours) from.removeFile(name);
-    for (const std::string& name : ours)
+void rescue(const OpenFolder& from, const OpenFolder& to, const std::vector<std::string>& written) {
+    for (const std::string& name : written) from.removeFile(name);
+    for (const std::string& name : written)
         for (const fs::path& inner : foldersOf(name)) from.removeFolder(inner);
     for (const std::string& name : from.names()) from.move(name, to, name, RENAME_NOREPLACE);
 }
@@ -140,7 +140,7 @@ bool OutputFolder::isThere() {
     const std::string name = folder_.filename();
     if (!destination_.isOpen() && beside_.has(name)) {
         destination_ = beside_.in(name);
-        destination_.hold();
+        destination_.pin();
     }
     struct stat opened {};
     if (destination_.isOpen() &&
@@ -151,7 +151,7 @@ bool OutputFolder::isThere() {
 
 // Blocks interruptions, which would remove the temporary folder meanwhile.
 void OutputFolder::makeFolders(const std::vector<std::string>& files) const {
-    const auto held = holdTemporaries();
+    const auto held = lockTemporaries();
     for (const std::string& name : files) {
         const fs::path inner = (path() / name).parent_path();
         if (!OpenFolder::made(inner).isOpen())
@@ -173,7 +173,7 @@ bool OutputFolder::exchange(const std::vector<std::string>& earlier) {
 void OutputFolder::put(const std::vector<std::string>& files,
                        const std::function<std::vector<std::string>()>& earlier) {
     const FolderLock lock(folder_);
-    const auto held = holdTemporaries();
+    const auto held = lockTemporaries();
     const bool there = isThere();
     finishMoves(folder_);
     const std::vector<std::string> old = earlier();
@@ -189,7 +189,7 @@ void OutputFolder::put(const std::vector<std::string>& files,
 
 void linkOrCopy(const fs::path& root, const std::string& name, const fs::path& to) {
     named((root / name).string(), [&] {
-        const auto held = holdTemporaries();  // an interruption must not remove the folder meanwhile
+        const auto held = lockTemporaries();  // an interruption must not remove the folder meanwhile
         InputFile from(root, name);
         const OpenFolder folder = folderOf(to);
         // By file descriptor: the file cannot be swapped meanwhile.
@@ -202,7 +202,7 @@ void linkOrCopy(const fs::path& root, const std::string& name, const fs::path& t
 
 void copyBelow(const fs::path& root, const std::string& name, const fs::path& to) {
     named((root / name).string(), [&] {
-        const auto held = holdTemporaries();
+        const auto held = lockTemporaries();
         InputFile from(root, name);
         copy(from, folderOf(to), to);
     });
@@ -212,7 +212,7 @@ void finishOutput(const fs::path& folder) {
     const fs::path path = nameOf(folder);
     if (!isMoveBegun(path)) return;
     const FolderLock lock(path);
-    const auto held = holdTemporaries();
+    const auto held = lockTemporaries();
     finishMoves(path);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/accept.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/linked_file.h"
-#include "compare/files/our_files.h"
 #include "compare/verdict/rules.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/fail.h"

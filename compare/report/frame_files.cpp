@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/frame_files.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_exr.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "compare/image/heat.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/atomic_file.h"

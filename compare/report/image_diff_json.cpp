@@ -2,9 +2,9 @@
 // The output of diff for scripts.
 #include "compare/report/image_diff_json.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/image_folders.h"
-#include "compare/files/our_files.h"
 #include "shared/text/json_text.h"
 
 #include <fmt/format.h>

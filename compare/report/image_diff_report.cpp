@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/image_diff_report.h"
 
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/image/channel_image.h"
 #include "compare/run/command_text.h"
 #include "shared/image/exr.h"
@@ -27,21 +27,22 @@ std::vector<DebugMode> modesOf(const ImageDiff& diff) {
     for (const auto& channel : diff.channels) {
         const MatchedChannel& pair = channel->pair;
         const DebugMode* known = findDebugMode(pair.name);
-        const bool ours = known && known->name == pair.name && known->width == pair.reference.components();
-        DebugMode mode{.channel = ours ? known->channel : foreignChannel(static_cast<int>(modes.size())),
+        const bool is_known =
+            known && known->name == pair.name && known->width == pair.reference.components();
+        DebugMode mode{.channel = is_known ? known->channel : foreignChannel(static_cast<int>(modes.size())),
                        .name = pair.name,
                        .width = pair.reference.components(),
                        .error_kind = pair.error_kind,
                        .kind = pair.kind,
                        .domain = Domain::any,
                        .supported_by = SupportedBy::both,
-                       .shows = ours ? known->shows : std::string_view(pair.reference_type)};
+                       .shows = is_known ? known->shows : std::string_view(pair.reference_type)};
         const bool color = pair.kind == ChannelKind::color && mode.width == 3;
         if (channel->display && color)
             mode.shown = ShownAs::display;
-        else if (color && (!ours || known->error_kind == ErrorKind::relative))
+        else if (color && (!is_known || known->error_kind == ErrorKind::relative))
             mode.shown = ShownAs::radiance;
-        else if (!ours && pair.kind != ChannelKind::id)
+        else if (!is_known && pair.kind != ChannelKind::id)
             mode.shown = ShownAs::normalised;
         modes.push_back(mode);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/json.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "compare/report/trends.h"
 #include "shared/text/json.h"
 #include "shared/text/json_text.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/parts.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "compare/output/policy.h"
 #include "compare/output/writers.h"
 #include "compare/page/emitted.h"
@@ -162,7 +162,7 @@ std::vector<std::string> namesFrom(const JsonValue& json, const std::string& sce
                                    std::set<std::string>& taken, std::initializer_list<const char*> endings) {
     for (const JsonValue& value : json.each()) {
         const std::string& name = value.text();
-        if (!isOurName(name) || !name.starts_with(scene_folder))
+        if (!isDiptychFileName(name) || !name.starts_with(scene_folder))
             value.fail(
                 fmt::format("\"{}\" is not a file in the report folder \"{}\"", oneLine(name), scene_folder));
         if (!taken.insert(name).second) value.fail(fmt::format("\"{}\" is listed twice", name));
@@ -316,7 +316,7 @@ ReportPart writePart(const Report& report, const fs::path& root, const ReportOpt
 }
 
 bool isPartThere(const fs::path& root, const std::string& scene_folder) {
-    return isOurManifest(root / (scene_folder + partFile));
+    return isDiptychManifest(root / (scene_folder + partFile));
 }
 
 ReportPart readPart(const fs::path& root, const std::string& scene_folder) {

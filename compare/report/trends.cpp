@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/trends.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "compare/page/text.h"
 #include "compare/report/titles.h"
 #include "shared/text/fail.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/report/whole_report.h"
 
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/output.h"
 #include "compare/files/output_folder.h"
 #include "compare/report/document.h"

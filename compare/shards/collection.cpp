@@ -33,7 +33,7 @@ Collection::Collection(const CollectionQuestion& question, const SceneItems& ite
     : question_(question),
       items_(items),
       progress_(progress),
-      kept_(question.folder, "scenes", question.key),
+      checkpoints_(question.folder, "scenes", question.key),
       devices_(device, other, true) {
     checkDevice();
     findCheckpoint();
@@ -46,20 +46,21 @@ void Collection::checkDevice() {
     for (const Device* of : devices_.all())
         for (const std::string& word : {of->info().name, of->info().driver, of->info().type})
             device.push_back(word);
-    const Json there = kept_.find("device");
+    const Json there = checkpoints_.find("device");
     if (there.is_object() && there.value("device", Json()) != device)
         throw std::runtime_error(
             fmt::format("{}: holds scenes rendered on another device ({}); remove it, or use that --device",
-                        kept_.path().string(), there["device"].dump()));
-    kept_.keep("device", {{"device", device}});
+                        checkpoints_.path().string(), there["device"].dump()));
+    checkpoints_.keep("device", {{"device", device}});
 }
 
 void Collection::findCheckpoint() {
     for (const Item* item : items_.mine) {
-        if (kept_.find(partOf(*item)) != stampOf(item->scene) || !isPartThere(kept_.path(), item->folder))
+        if (checkpoints_.find(partOf(*item)) != stampOf(item->scene) ||
+            !isPartThere(checkpoints_.path(), item->folder))
             continue;
         try {
-            parts_.emplace(item, readPart(kept_.path(), item->folder));
+            parts_.emplace(item, readPart(checkpoints_.path(), item->folder));
         } catch (const std::runtime_error& problem) {
             question_.note(fmt::format("{}; comparing the scene again", problem.what()));
         }
@@ -119,10 +120,10 @@ ReportPart Collection::compareOne(const Item& item, const Scene& scene, const St
     RenderOptions render = question_.drawing;
     render.keep = references.opener();
     const auto [drawing, comparing] = experiment::fractionsOf(render);
-    const double ours = question_.compared.ourFraction() * drawing;
-    render.progress = stage.part(0, ours);
+    const double drawn_part = question_.compared.pathsFraction() * drawing;
+    render.progress = stage.part(0, drawn_part);
     experiment::DrawnScene drawn = experiment::drawScene(scene, question_.compared, question_.settings,
-                                                         devices_, render, stage.part(ours, drawing));
+                                                         devices_, render, stage.part(drawn_part, drawing));
     for (const Device* of : devices_.all()) checkValidation(*of);
     CompareOptions compare = question_.compare;
     compare.progress = stage.part(drawing, comparing);
@@ -136,9 +137,9 @@ ReportPart Collection::compareOne(const Item& item, const Scene& scene, const St
     ReportOptions written = question_.report;
     written.progress = stage.part(explained, 1);
     written.scene_folder = item.folder;
-    ReportPart part = writePart(report, kept_.path(), written);
+    ReportPart part = writePart(report, checkpoints_.path(), written);
     // If an external renderer failed, the next run tries the scene again.
-    if (report.errors.empty()) kept_.keep(partOf(item), stampOf(item.scene));
+    if (report.errors.empty()) checkpoints_.keep(partOf(item), stampOf(item.scene));
     for (const SceneError& error : report.errors) errors_.emplace(&item, error);
     references.remove();
     return part;
@@ -150,7 +151,7 @@ WholeReport Collection::whole() {
         const auto [first, last] = errors_.equal_range(item);
         for (auto error = first; error != last; ++error) whole.errors.push_back(error->second);
         if (const auto part = parts_.find(item); part != parts_.end())
-            whole.parts.push_back({std::move(part->second), kept_.path(), true});
+            whole.parts.push_back({std::move(part->second), checkpoints_.path(), true});
     }
     return whole;
 }

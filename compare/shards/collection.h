@@ -44,11 +44,11 @@ public:
     Collection(const CollectionQuestion& question, const SceneItems& items, Device& device, Device* other,
                Progress& progress);
 
-    const std::filesystem::path& checkpointedIn() const { return kept_.path(); }
+    const std::filesystem::path& checkpointedIn() const { return checkpoints_.path(); }
     // Compares scenes without a kept part. The next scene loads while one is compared.
     void compareAll();
-    WholeReport whole();               // moves the parts; without WholeReport::shard
-    void remove() { kept_.remove(); }  // call when the report is written
+    WholeReport whole();                      // moves the parts; without WholeReport::shard
+    void remove() { checkpoints_.remove(); }  // call when the report is written
 
 private:
     void checkDevice();
@@ -60,7 +60,7 @@ private:
     const CollectionQuestion& question_;
     const SceneItems& items_;
     Progress& progress_;
-    CheckpointFolder kept_;
+    CheckpointFolder checkpoints_;
     experiment::Devices devices_;
     std::map<const Item*, ReportPart> parts_;
     std::multimap<const Item*, SceneError> errors_;  // of the scene or of external renderers

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/manifest.h"
 
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/report/folders.h"
 #include "compare/run/version.h"
 #include "shared/text/fail.h"
@@ -31,7 +31,7 @@ constexpr std::uint64_t max_program_bytes = std::uint64_t(4) << 30;
 // Folder of a scene's files: "" or a name that diptych gives.
 std::string folderFrom(const JsonAt<Json>& json) {
     const std::string& folder = json.text();
-    if (!folder.empty() && (!folder.ends_with('/') || !isOurName(folder + "part.json")))
+    if (!folder.empty() && (!folder.ends_with('/') || !isDiptychFileName(folder + "part.json")))
         json.fail(fmt::format("\"{}\" is not a folder name of diptych", oneLine(folder)));
     return folder;
 }

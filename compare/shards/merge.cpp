@@ -30,19 +30,19 @@ std::string shortened(std::string text) {
 }
 
 // Describes how another manifest's command differs from ours.
-std::string differenceOf(const Manifest& other, const Manifest& ours) {
-    if (other.build != ours.build)
-        return fmt::format("is from another build ({}; the others are from {})", other.build, ours.build);
-    if (other.command != ours.command)
-        return fmt::format("is from {}, the others are from {}", other.command, ours.command);
-    if (other.shard.count != ours.shard.count)
-        return fmt::format("is one of {} shards, the others of {}", other.shard.count, ours.shard.count);
-    for (const auto& [key, value] : ours.plan.items()) {
+std::string differenceOf(const Manifest& other, const Manifest& first) {
+    if (other.build != first.build)
+        return fmt::format("is from another build ({}; the others are from {})", other.build, first.build);
+    if (other.command != first.command)
+        return fmt::format("is from {}, the others are from {}", other.command, first.command);
+    if (other.shard.count != first.shard.count)
+        return fmt::format("is one of {} shards, the others of {}", other.shard.count, first.shard.count);
+    for (const auto& [key, value] : first.plan.items()) {
         const Json there = other.plan.contains(key) ? other.plan[key] : Json();
         if (there == value) continue;
         if (key == "scenes") {
             std::set<std::string> mine, theirs;
-            for (const Item& item : ours.items) mine.insert(item.scene);
+            for (const Item& item : first.items) mine.insert(item.scene);
             for (const Item& item : other.items) theirs.insert(item.scene);
             for (const std::string& scene : theirs)
                 if (!mine.contains(scene)) return fmt::format("has another scene: {}", scene);

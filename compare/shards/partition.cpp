@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/shards/partition.h"
 
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "shared/scene/gltf/limits.h"
 #include "shared/scene/gltf/resources.h"
 #include "shared/text/fail.h"

@@ -151,7 +151,7 @@ std::string mergeScript(const SlurmJob& job) {
 Submitted submit(const SlurmJob& job) {
     const fs::path folder = slurmFolder(job.out);
     OpenFolder own = OpenFolder::own(folder);  // nobody else may change the scripts
-    own.hold();
+    own.pin();
     const fs::path array = folder / "array.sh", merge = folder / "merge.sh";
     writeFile(array, arrayScript(job));
     writeFile(merge, mergeScript(job));

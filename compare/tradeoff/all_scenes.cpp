@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare/tradeoff/all_scenes.h"
 
+#include "compare/files/diptych_files.h"
 #include "compare/files/listed_folder.h"
-#include "compare/files/our_files.h"
 #include "compare/output/writers.h"
 #include "compare/page/text.h"
 #include "compare/plot/plot.h"

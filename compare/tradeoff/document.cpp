@@ -37,10 +37,10 @@ std::string again(const char* what, const std::string& command) {
     return inHtml(output::Paragraph{{what, Span(command, Span::command)}, "again"});
 }
 
-std::string spreadText(const Spread& spread) {
-    return spread.low < spread.value || spread.high > spread.value
-               ? fmt::format("{} ({} to {})", number(spread.value), number(spread.low), number(spread.high))
-               : number(spread.value);
+std::string rangeText(const CameraRange& range) {
+    return range.low < range.value || range.high > range.value
+               ? fmt::format("{} ({} to {})", number(range.value), number(range.low), number(range.high))
+               : number(range.value);
 }
 
 std::string switches() {
@@ -92,7 +92,7 @@ std::string card(const Tradeoff& tradeoff, std::size_t index, bool shown) {
         row[Measure::ms], row[Measure::ms_min], row[Measure::ms_max]);
     for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric)
         out += fmt::format("<dt>{}</dt><dd>{}</dd>", markup(errorMetrics[metric].title),
-                           spreadText(spreadOf(row, errorMeasure(metric))));
+                           rangeText(cameraRangeOf(row, errorMeasure(metric))));
     out += fmt::format("<dt>memory</dt><dd>{}</dd>", inHtml(cellOf(row, Measure::memory).text));
     for (const PassTime& pass : row.passes)
         out += fmt::format("<dt>{}</dt><dd>{:.3g} ms</dd>", markup(pass.name), pass.ms);
@@ -141,10 +141,10 @@ std::vector<std::string> howItWent(const Tradeoff& tradeoff) {
     const SweepCost& cost = tradeoff.cost;
     lines.push_back(fmt::format("It took {:.1f} s, {:.1f} s of which to draw and time the rows",
                                 cost.whole / 1e3, cost.drawing / 1e3));
-    if (tradeoff.kept > 0)
+    if (tradeoff.resumed_rows > 0)
         lines.push_back(fmt::format("{} of {} rows come from an interrupted run and keep its times",
-                                    tradeoff.kept, tradeoff.rows.size()));
-    if (const std::optional<Spread> drift = driftOf(tradeoff))
+                                    tradeoff.resumed_rows, tradeoff.rows.size()));
+    if (const std::optional<CameraRange> drift = driftOf(tradeoff))
         lines.push_back(
             fmt::format("Frames timed after all rows were drawn, in random order, took {:.3g} times as long "
                         "as each row's first frames ({:.3g} to {:.3g} for single rows): a smaller difference "

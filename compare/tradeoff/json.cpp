@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
-#include "compare/files/our_files.h"
 #include "compare/run/version.h"
 #include "compare/tradeoff/tradeoff.h"
 
@@ -75,7 +75,7 @@ Json tradeoffJson(const Tradeoff& tradeoff) {
         return {{"tried", jsonOf(skip.tried)}, {"reason", skip.reason}};
     };
     const SweepCost& cost = tradeoff.cost;
-    const std::optional<Spread> drift = driftOf(tradeoff);
+    const std::optional<CameraRange> drift = driftOf(tradeoff);
     return {{"schema", 1},
             {"software", softwareName},
             {"commit", commitName()},
@@ -92,7 +92,7 @@ Json tradeoffJson(const Tradeoff& tradeoff) {
             {"fronts", frontsOf(tradeoff)},
             {"skipped", arrayOf(tradeoff.skips, skipJson)},
             {"notes", tradeoff.notes},
-            {"rows_kept", tradeoff.kept},
+            {"rows_kept", tradeoff.resumed_rows},
             {"second_visit", drift ? Json{{"median", drift->value}, {"min", drift->low}, {"max", drift->high}}
                                    : Json(nullptr)},
             {"cost_ms",

@@ -16,7 +16,7 @@ std::string tradeoffPlot(const Tradeoff& tradeoff, std::size_t metric, std::opti
     const std::vector<std::size_t> front = frontOf(tradeoff, metric, path);
     for (const std::size_t i : rowsOf(tradeoff, path)) {
         const TradeoffRow& row = tradeoff.rows[i];
-        const Spread error = spreadOf(row, errorMeasure(metric));
+        const CameraRange error = cameraRangeOf(row, errorMeasure(metric));
         const bool best = std::ranges::count(front, i) > 0;
         if (best) panel.front.emplace_back(row[Measure::ms], error.value);
         panel.pointsOf(std::string(nameOf(row.settings.path)), row.settings.path, false)

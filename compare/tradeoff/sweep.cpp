@@ -130,7 +130,7 @@ void Sweep::drawRows(const Stage& stage, const std::function<void(std::size_t)>&
         done += weightOf(settings);
         if (std::optional<TradeoffRow> kept =
                 state_.find(settings, references_.frames.size(), blocks.size())) {
-            ++tradeoff_.kept;
+            ++tradeoff_.resumed_rows;
             tradeoff_.rows.push_back(std::move(*kept));
         } else {
             RenderOptions render = question_.drawing;

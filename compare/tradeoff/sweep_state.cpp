@@ -35,11 +35,11 @@ fs::path SweepState::folderOf(const fs::path& out) {
     return besideOutput(out, folderName);
 }
 
-SweepState::SweepState(const fs::path& out, const Json& key) : kept_(out, folderName, key) {}
+SweepState::SweepState(const fs::path& out, const Json& key) : checkpoints_(out, folderName, key) {}
 
 std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_t cameras,
                                             std::size_t blocks) const {
-    return experiment::findCheckpoint(kept_, nameOf(settings), [&](const Json& json) {
+    return experiment::findCheckpoint(checkpoints_, nameOf(settings), [&](const Json& json) {
         TradeoffRow row = tradeoffRowFrom(json);
         const auto isVisited = [&](const experiment::Row& camera) {
             const std::size_t times = camera.blocks.size();
@@ -47,8 +47,8 @@ std::optional<TradeoffRow> SweepState::find(const Settings& settings, std::size_
         };
         const bool whole = row.settings == settings && row.cameras.size() == cameras &&
                            std::ranges::all_of(row.cameras, isVisited) && row.image == imageOf(row) &&
-                           row.errors_map == errorsOf(row) && fs::exists(kept_ / row.image) &&
-                           fs::exists(kept_ / row.errors_map);
+                           row.errors_map == errorsOf(row) && fs::exists(checkpoints_ / row.image) &&
+                           fs::exists(checkpoints_ / row.errors_map);
         return whole ? std::optional(std::move(row)) : std::nullopt;
     });
 }
@@ -57,17 +57,17 @@ void SweepState::keep(MeasuredRow& measured) {
     TradeoffRow& row = measured.row;
     row.image = imageOf(row);
     row.errors_map = errorsOf(row);
-    writePng(kept_ / row.image, measured.image);
-    writePng(kept_ / row.errors_map, measured.errors);
+    writePng(checkpoints_ / row.image, measured.image);
+    writePng(checkpoints_ / row.errors_map, measured.errors);
     renew(row);
 }
 
 void SweepState::renew(const TradeoffRow& row) {
-    kept_.keep(nameOf(row), jsonOf(row));
+    checkpoints_.keep(nameOf(row), jsonOf(row));
 }
 
 void SweepState::remove() {
-    kept_.remove();
+    checkpoints_.remove();
 }
 
 }  // namespace diptych::tradeoff

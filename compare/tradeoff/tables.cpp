@@ -200,12 +200,12 @@ output::Table csvTable(const Tradeoff& tradeoff) {
     addMeasure("ms_min", Measure::ms_min);
     addMeasure("ms_max", Measure::ms_max);
     add("runs", [&](const auto&, auto) { return fmt::format("{}", tradeoff.runs); });
-    using Part = std::pair<const char*, double Spread::*>;
+    using Part = std::pair<const char*, double CameraRange::*>;
     for (std::size_t f = 0; f < errorMetrics.size(); ++f)
         for (const auto& [end, part] :
-             {Part{"", &Spread::value}, {"_min", &Spread::low}, {"_max", &Spread::high}})
+             {Part{"", &CameraRange::value}, {"_min", &CameraRange::low}, {"_max", &CameraRange::high}})
             add(fmt::format("{}{}", errorMetrics[f].name, end), [f, of = part](const TradeoffRow& row, auto) {
-                return fmt::format("{}", spreadOf(row, errorMeasure(f)).*of);
+                return fmt::format("{}", cameraRangeOf(row, errorMeasure(f)).*of);
             });
     for (std::size_t f = 0; f < errorMetrics.size(); ++f)
         add(fmt::format("front_{}", errorMetrics[f].name),

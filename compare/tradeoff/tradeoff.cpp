@@ -77,7 +77,7 @@ std::vector<std::size_t> frontOf(const Tradeoff& tradeoff, std::size_t metric, s
     return front;
 }
 
-std::optional<Spread> driftOf(const Tradeoff& tradeoff) {
+std::optional<CameraRange> driftOf(const Tradeoff& tradeoff) {
     std::vector<double> ratios;
     for (const TradeoffRow& row : tradeoff.rows) {
         if (!row.renderer.empty()) continue;
@@ -91,7 +91,7 @@ std::optional<Spread> driftOf(const Tradeoff& tradeoff) {
     }
     if (ratios.empty()) return {};
     std::ranges::sort(ratios);
-    return Spread{ratios[ratios.size() / 2], ratios.front(), ratios.back()};
+    return CameraRange{ratios[ratios.size() / 2], ratios.front(), ratios.back()};
 }
 
 std::vector<Path> pathsOf(const Tradeoff& tradeoff) {

@@ -17,6 +17,7 @@
 
 namespace diptych::tradeoff {
 
+using experiment::CameraRange;
 using experiment::Change;
 using experiment::changesOf;
 using experiment::describe;
@@ -29,7 +30,6 @@ using experiment::sampleMetrics;
 using experiment::ShadowErrors;
 using experiment::shadowMetrics;
 using experiment::SkipGroup;
-using experiment::Spread;
 using experiment::SweepSkip;
 
 // The measure of an error, an index in errorMetrics.
@@ -64,7 +64,7 @@ struct Tradeoff {
     std::vector<SweepSkip> skips;
     std::vector<std::string> notes;
     std::string reference_image;
-    std::size_t kept = 0;  // rows from an earlier run
+    std::size_t resumed_rows = 0;  // rows from an earlier run
     SweepCost cost;
 };
 
@@ -79,7 +79,7 @@ std::vector<Path> pathsOf(const Tradeoff& tradeoff);  // with rows, in enumerati
 
 // Time of a row's second timing block over its first: median, least and greatest over the rows. Shows
 // drift of the device's speed. Empty with a single block.
-std::optional<Spread> driftOf(const Tradeoff& tradeoff);
+std::optional<CameraRange> driftOf(const Tradeoff& tradeoff);
 
 // Shell commands: measures the row again, renders its image, compares its errors with the other path's per
 // channel. The last is empty if the row's reference differs from the sweep's, for example in size. It is

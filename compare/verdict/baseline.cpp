@@ -112,7 +112,7 @@ std::string updateBaseline(const fs::path& file, const Frame& frame, const Repor
     if (!aside.createFolder()) failed(file, errno);
     const fs::path name = file.filename(), kept = old.filename();
     writeFrameExr(aside.path() / name, frame, device);
-    const auto held = holdTemporaries();
+    const auto held = lockTemporaries();
     if (!fresh) {
         if (aside.folder().link(name, aside.contents(), kept) != 0)
             copyBelow(file.parent_path(), name, aside.path() / kept);

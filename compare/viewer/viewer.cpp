@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/viewer.h"
 
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/viewer/drawing/canvas.h"
 #include "compare/viewer/drawing/drawing_thread.h"
 #include "compare/viewer/interface/actions.h"
@@ -295,7 +295,7 @@ private:
             std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
             if (ending == ".gltf" || ending == ".glb") {
                 openScene(file.string());
-            } else if (ending == ".exr" && isOurImage(file)) {
+            } else if (ending == ".exr" && isDiptychImage(file)) {
                 state_.stored = state_.view_options.file = file;
                 state_.view_options.against = Against::file;
                 tell("left: " + file.string());

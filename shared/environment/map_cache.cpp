@@ -154,7 +154,7 @@ bool writeMaps(const fs::path& file, std::uint64_t key, const EnvironmentMaps& m
     try {
         OpenFolder folder = makeCacheFolder(file.parent_path());
         if (!folder.isOpen()) return false;
-        folder.hold();
+        folder.pin();
         const std::vector<float> floats = flattened(maps);
         MapFileHead head;
         head.key = key;

@@ -151,7 +151,7 @@ bool Temporary::createFolder(bool isPrivate) {
     // Another program may have given the name to a folder of its own.
     if (!contents_.isOpen() || !contents_.names().empty()) return succeeded(EEXIST);
     registry().all.emplace(path_, this);
-    contents_.hold();
+    contents_.pin();
     ::fstat(contents_.descriptor(), &seen_);
     ::fchmod(contents_.descriptor(), isPrivate ? S_IRWXU : temporary_mode | (seen_.st_mode & S_ISGID));
     contents_.lock();
@@ -165,7 +165,7 @@ bool Temporary::moveTo(const OpenFolder& folder) {
     folder_ = folder.copy();
     path_ = folder_.path() / name();
     registry().all.emplace(path_, this);
-    contents_.holdAs(path_);
+    contents_.pinAs(path_);
     return true;
 }
 
@@ -196,13 +196,13 @@ bool Temporary::exchange(OpenFolder& old) {
         return false;
     }
     std::swap(contents_, old);
-    contents_.holdAs(path_);
-    old.holdAs(target_);
+    contents_.pinAs(path_);
+    old.pinAs(target_);
     seen_ = theirs;
     return true;
 }
 
-std::unique_lock<std::recursive_mutex> holdTemporaries() {
+std::unique_lock<std::recursive_mutex> lockTemporaries() {
     return std::unique_lock(registry().mutex);
 }
 

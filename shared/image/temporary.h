@@ -61,7 +61,7 @@ private:
 
 // Interruptions wait while the returned lock is held. For steps that belong together, and for files
 // created inside a temporary folder without createFile(). Hold it for milliseconds at most.
-std::unique_lock<std::recursive_mutex> holdTemporaries();
+std::unique_lock<std::recursive_mutex> lockTemporaries();
 
 // Removes all temporaries and prevents new ones and commits. The caller must end the program.
 void abandonTemporaries() noexcept;

@@ -98,13 +98,13 @@ int stepDown(int file, const fs::path& names) {
 }
 
 // Held folders by their absolute paths. Never destroyed: another thread may write while the program exits.
-struct HeldFolders {
+struct PinnedFolders {
     std::mutex mutex;
     std::multimap<fs::path, int> files;
 };
 
-HeldFolders& heldFolders() {
-    static auto* const all = new HeldFolders;
+PinnedFolders& pinnedFolders() {
+    static auto* const all = new PinnedFolders;
     return *all;
 }
 
@@ -116,18 +116,18 @@ fs::path keyOf(const fs::path& folder) {
 }
 
 // The innermost held folder that is `path` or contains it; null if there is none. Under the mutex.
-const std::pair<const fs::path, int>* heldAbove(const fs::path& path) {
-    const auto& files = heldFolders().files;
+const std::pair<const fs::path, int>* pinnedAncestor(const fs::path& path) {
+    const auto& files = pinnedFolders().files;
     for (fs::path outer = path; outer.has_relative_path(); outer = outer.parent_path())
-        if (const auto held = files.find(outer); held != files.end()) return &*held;
+        if (const auto pinned = files.find(outer); pinned != files.end()) return &*pinned;
     return nullptr;
 }
 
 void letGo(const fs::path& path, int file) {
-    const std::lock_guard lock(heldFolders().mutex);
-    auto [at, end] = heldFolders().files.equal_range(keyOf(path));
-    at = std::find_if(at, end, [&](const auto& held) { return held.second == file; });
-    if (at != end) heldFolders().files.erase(at);
+    const std::lock_guard lock(pinnedFolders().mutex);
+    auto [at, end] = pinnedFolders().files.equal_range(keyOf(path));
+    at = std::find_if(at, end, [&](const auto& pinned) { return pinned.second == file; });
+    if (at != end) pinnedFolders().files.erase(at);
 }
 
 }  // namespace
@@ -136,33 +136,33 @@ OpenFolder::OpenFolder(const fs::path& folder)
     : path_(folder), file_(checked(AT_FDCWD, folder.c_str(), folder)) {}
 
 OpenFolder::~OpenFolder() {
-    if (held_) letGo(path_, file_);
+    if (pinned_) letGo(path_, file_);
     if (file_ >= 0) ::close(file_);
 }
 
 OpenFolder& OpenFolder::operator=(OpenFolder&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(file_, other.file_);
-    std::swap(held_, other.held_);
+    std::swap(pinned_, other.pinned_);
     return *this;
 }
 
 OpenFolder OpenFolder::at(const fs::path& folder) {
     const fs::path path = keyOf(folder);
     {
-        const std::lock_guard lock(heldFolders().mutex);
-        if (const auto* const held = heldAbove(path))
-            return {folder, stepDown(::fcntl(held->second, F_DUPFD_CLOEXEC, 0),
-                                     path.lexically_relative(held->first))};
+        const std::lock_guard lock(pinnedFolders().mutex);
+        if (const auto* const pinned = pinnedAncestor(path))
+            return {folder, stepDown(::fcntl(pinned->second, F_DUPFD_CLOEXEC, 0),
+                                     path.lexically_relative(pinned->first))};
     }
     const char* const name = folder.empty() ? "." : folder.c_str();
     const int file = ::open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     return {folder, file < 0 && errno == EACCES ? ::open(name, O_PATH | O_DIRECTORY | O_CLOEXEC) : file};
 }
 
-bool OpenFolder::isBelowHeld(const fs::path& path) {
-    const std::lock_guard lock(heldFolders().mutex);
-    return heldAbove(keyOf(path).parent_path()) != nullptr;
+bool OpenFolder::isBelowPinned(const fs::path& path) {
+    const std::lock_guard lock(pinnedFolders().mutex);
+    return pinnedAncestor(keyOf(path).parent_path()) != nullptr;
 }
 
 OpenFolder OpenFolder::made(const fs::path& folder) {
@@ -190,16 +190,16 @@ OpenFolder OpenFolder::own(const fs::path& folder) {
     return there;
 }
 
-void OpenFolder::hold() {
-    const std::lock_guard lock(heldFolders().mutex);
-    heldFolders().files.emplace(keyOf(path_), file_);
-    held_ = true;
+void OpenFolder::pin() {
+    const std::lock_guard lock(pinnedFolders().mutex);
+    pinnedFolders().files.emplace(keyOf(path_), file_);
+    pinned_ = true;
 }
 
-void OpenFolder::holdAs(fs::path path) {
-    if (held_) letGo(path_, file_);
+void OpenFolder::pinAs(fs::path path) {
+    if (pinned_) letGo(path_, file_);
     path_ = std::move(path);
-    hold();
+    pin();
 }
 
 OpenFolder OpenFolder::copy() const {

@@ -25,7 +25,7 @@ public:
     OpenFolder& operator=(OpenFolder&& other) noexcept;
 
     // A folder by any path; empty: the working directory. Follows links like the system, because users may
-    // name folders by them, but none below a folder that is held. Not open, with errno set, on failure.
+    // name folders by them, but none below a folder that is pinned. Not open, with errno set, on failure.
     static OpenFolder at(const std::filesystem::path& folder);
     // The same; creates missing folders.
     static OpenFolder made(const std::filesystem::path& folder);
@@ -35,16 +35,16 @@ public:
 
     // While it is open, all paths below this folder are resolved from here: by at(), and so by
     // AtomicFile, Temporary and InputFile.
-    void hold();
+    void pin();
     // The same by its new name, after a move.
-    void holdAs(std::filesystem::path path);
+    void pinAs(std::filesystem::path path);
 
-    static bool isBelowHeld(const std::filesystem::path& path);
+    static bool isBelowPinned(const std::filesystem::path& path);
 
     bool isOpen() const { return file_ >= 0; }
     int descriptor() const { return file_; }
     const std::filesystem::path& path() const { return path_; }  // for messages
-    OpenFolder copy() const;                                     // not held
+    OpenFolder copy() const;                                     // not pinned
     bool lock() const;  // false if another program has the lock; true without lock support
     // Why the folder is not ours alone: "it belongs to another user; REMEDY". Else empty.
     std::string fault(const char* remedy = "move it away") const;
@@ -84,7 +84,7 @@ private:
 
     std::filesystem::path path_;
     int file_ = -EBADF;  // or minus the errno of a failed opening
-    bool held_ = false;
+    bool pinned_ = false;
 };
 
 // "FILE: the system's message; a remedy", for the errno of a failed write.

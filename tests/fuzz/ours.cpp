@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // File lists, checkpoint keys and move plans that the program writes and reads back.
 #include "compare/files/checkpoint_folder.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/file_moves.h"
-#include "compare/files/our_files.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/scratch_folder.h"
 
@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     folder.write("out/.diptych.put/.plan.json", text);
     fuzz::readOrSayWhy([&] {
         for (const std::string& name : listedIn(folder / "report.json"))
-            fuzz::require(isOurName(name) && !name.starts_with('/') &&
+            fuzz::require(isDiptychFileName(name) && !name.starts_with('/') &&
                               ('/' + name + '/').find("/../") == std::string::npos,
                           "what is listed is one of our names, inside its folder");
     });

@@ -22,14 +22,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* ours = "diptych";
+constexpr const char* extras_key = "diptych";
 constexpr double maxCount = 2147483647;
 
 // The object "diptych" in the "extras" of `owner`. Keys that are not `known` get a note.
-const Json* ourExtras(const Json& owner, std::initializer_list<std::string_view> known,
-                      const std::string& who, NoteList& notes) {
+const Json* diptychExtras(const Json& owner, std::initializer_list<std::string_view> known,
+                          const std::string& who, NoteList& notes) {
     const Json* extras = memberOf(owner, "extras");
-    const Json* own = extras ? memberOf(*extras, ours) : nullptr;
+    const Json* own = extras ? memberOf(*extras, extras_key) : nullptr;
     if (!own) return nullptr;
     if (!own->is_object()) {
         notes.add(who + ": is not an object: left out");
@@ -55,8 +55,8 @@ int takeNode(Json& object, std::size_t nodes, const std::string& who) {
 }  // namespace
 
 void addExtras(const Json& file, int index, Light& light, NoteList& notes) {
-    const std::string who = fmt::format("light {}: extras: {}", index, ours);
-    const Json* own = ourExtras(file, {"angle", "importance", "shadow"}, who, notes);
+    const std::string who = fmt::format("light {}: extras: {}", index, extras_key);
+    const Json* own = diptychExtras(file, {"angle", "importance", "shadow"}, who, notes);
     if (!own) return;
     const JsonFields fields(*own, who);
     readOrNote(notes, [&] { light.importance = importanceOf(fields); });
@@ -76,8 +76,8 @@ void addExtras(const Json& file, int index, Light& light, NoteList& notes) {
 
 void attachLights(const Json& file, int index, const std::vector<int>& node_index, Scene& scene,
                   NoteList& notes) {
-    const std::string who = fmt::format("scene {}: extras: {}", index, ours);
-    const Json* own = ourExtras(file, {"lights"}, who, notes);
+    const std::string who = fmt::format("scene {}: extras: {}", index, extras_key);
+    const Json* own = diptychExtras(file, {"lights"}, who, notes);
     const Json* lights = own ? memberOf(*own, "lights") : nullptr;
     if (!lights) return;
     if (!lights->is_array()) return notes.add(who + ": lights: is not an array: left out");
@@ -98,9 +98,9 @@ void attachLights(const Json& file, int index, const std::vector<int>& node_inde
 
 Lightmap lightmapOf(const Json& material, std::size_t textures, const std::string& material_name) {
     Lightmap result;
-    const std::string who = fmt::format("{}: extras: {}", material_name, ours);
+    const std::string who = fmt::format("{}: extras: {}", material_name, extras_key);
     NoteList notes("lightmaps");
-    const Json* own = ourExtras(material, {"lightmap"}, who, notes);
+    const Json* own = diptychExtras(material, {"lightmap"}, who, notes);
     if (const Json* found = own ? memberOf(*own, "lightmap") : nullptr)
         readOrNote(notes, [&] {
             const JsonFields fields(*found, who + ": lightmap");

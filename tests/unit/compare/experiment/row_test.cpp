@@ -109,9 +109,9 @@ TEST(Rows, OverCamerasFollowTheirRule) {
     EXPECT_FALSE(row.measured.has(Measure::flip)) << "not a mean of cameras";
     EXPECT_FALSE(row.measured.has(Measure::gap)) << "one camera has none";
     EXPECT_DOUBLE_EQ(row.passes.at(0).ms, 0.5);
-    const Spread spread = spreadOf(row, Measure::memory);
-    EXPECT_EQ(spread.low, row.cameras[0][Measure::memory]);
-    EXPECT_EQ(spread.high, 300);
+    const CameraRange range = cameraRangeOf(row, Measure::memory);
+    EXPECT_EQ(range.low, row.cameras[0][Measure::memory]);
+    EXPECT_EQ(range.high, 300);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 // nothing outside the output is read or changed.
 #include "compare/cli/command_line.h"
 #include "compare/files/checkpoint_folder.h"
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/scene_folders.h"
 #include "shared/text/one_line.h"
 #include "tests/support/shards_builder.h"
@@ -357,9 +357,9 @@ TEST(HostileFolders, WhatStandsInPlaceOfOurFilesIsSaidAtOnce) {
             return error.what();
         }
     };
-    EXPECT_FALSE(isOurManifest(root / "report.json"));
-    EXPECT_FALSE(isOurManifest("/dev/zero"));
-    EXPECT_FALSE(isOurImage(root / "report.json"));
+    EXPECT_FALSE(isDiptychManifest(root / "report.json"));
+    EXPECT_FALSE(isDiptychManifest("/dev/zero"));
+    EXPECT_FALSE(isDiptychImage(root / "report.json"));
     EXPECT_EQ(line([&] { shards::timingsOf(root); }),
               "--timings " + root.string() + ": is not a regular file");
     EXPECT_EQ(line([&] { scenesOf({"@" + (root / "list").string()}); }),

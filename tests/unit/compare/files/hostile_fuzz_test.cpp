@@ -3,8 +3,8 @@
 // outside the output is read or changed.
 #include "compare/cli/command_line.h"
 #include "compare/files/checkpoint_folder.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/file_moves.h"
-#include "compare/files/our_files.h"
 #include "compare/files/scene_folders.h"
 #include "compare/output/writers.h"
 #include "compare/report/trends.h"
@@ -89,7 +89,7 @@ TEST(HostileFuzz, EarlierReports) {
         expectALine([&] { shards::timingsOf(shards.shard); }, text);
         expectALine([&] { accept.run(); }, text);
         for (const std::string& name : manifestFiles(shards.shard, "report.json"))
-            EXPECT_TRUE(isOurName(name)) << name;
+            EXPECT_TRUE(isDiptychFileName(name)) << name;
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Folders of several scenes and cameras, the files that are kept, and a report's memory.
 #include "compare/report/folders.h"
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "tests/support/files.h"
@@ -55,7 +55,7 @@ TEST(ReportFolders, ANameDependsOnItsSceneAlone) {
     EXPECT_EQ(nameOfFolder("\xc3\xa4", "\xc3\xa4").size(), 6u) << "no letter is left: digits alone";
     EXPECT_EQ(nameOfFolder(std::string(300, 'x'), std::string(300, 'x')).size(), 47u);
     for (const char* text : {"..", ".hidden", "-o", "a/b", " ", "builtin:x?y=1"})
-        EXPECT_TRUE(isOurName(fs::path(nameOfFolder(text, text)) / "lit.png")) << text;
+        EXPECT_TRUE(isDiptychFileName(fs::path(nameOfFolder(text, text)) / "lit.png")) << text;
 }
 
 TEST(ReportFolders, AnotherSceneChangesNoName) {
@@ -94,7 +94,7 @@ TEST(ReportFolders, TimesHaveFolders) {
                                     {"builtin:a", "", false, 1e20}});
     const std::vector<std::string> names = reportFolders(report).comparisons;
     EXPECT_EQ(names, (std::vector<std::string>{"a/0/0s/", "a/0/0_5s/", "a/1e-05s/", "a/1e20s/"}));
-    for (const std::string& name : names) EXPECT_TRUE(isOurName(fs::path(name) / "lit.png")) << name;
+    for (const std::string& name : names) EXPECT_TRUE(isDiptychFileName(fs::path(name) / "lit.png")) << name;
     EXPECT_EQ(reportFolders(askedFor({{"a.glb", "", false, 2}})).comparisons, std::vector<std::string>{""})
         << "one comparison stands on top";
 }
@@ -190,10 +190,10 @@ TEST(ReportFolders, AListNamesNothingOutside) {
     const fs::path here = folder();
     for (const char* name :
          {"lit.png", "1/lit.png", "Box-1c9f03/top/lit.values.js", "a/b/comparison.section.js"})
-        EXPECT_TRUE(isOurName(name)) << name;
+        EXPECT_TRUE(isDiptychFileName(name)) << name;
     for (const char* name : {"../lit.png", "a/../lit.png", "/lit.png", "/a/lit.png", "a/.b/lit.png",
                              "a/lit.txt", ".lit.png", "a/", "", "a b/lit.png", "./lit.png"})
-        EXPECT_FALSE(isOurName(name)) << name;
+        EXPECT_FALSE(isDiptychFileName(name)) << name;
     EXPECT_EQ(foldersOf("a/b/lit.png"), (std::vector<fs::path>{"a/b", "a"}));
     EXPECT_TRUE(foldersOf("lit.png").empty());
     EXPECT_TRUE(foldersOf("/lit.png").empty());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Output of render: one file, or a folder with a list of its files.
 #include "compare/report/frame_files.h"
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/output.h"
 #include "shared/image/exr.h"
 #include "shared/image/png.h"

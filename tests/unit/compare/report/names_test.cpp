@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Layers of other renderers may have any name. Each gets its own file inside the report's folder, and the
 // page links to it.
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 #include "compare/report/folders.h"
 #include "compare/report/image_diff_report.h"
 #include "shared/image/exr.h"
@@ -42,7 +42,7 @@ TEST(ReportNames, OfAFileAreSafeAndNoTwoBecomeTheSame) {
             << file;
         EXPECT_LE(file.size(), 160u);
         EXPECT_NE(file.substr(0, 1), ".");
-        EXPECT_TRUE(isOurName(file + ".png")) << file << ": a later report may remove it";
+        EXPECT_TRUE(isDiptychFileName(file + ".png")) << file << ": a later report may remove it";
     }
 }
 

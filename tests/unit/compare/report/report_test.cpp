@@ -2,8 +2,8 @@
 // A report's files, keys and escapes; files of others stay untouched.
 #include "compare/report/report.h"
 #include "compare/files/data_uri.h"
+#include "compare/files/diptych_files.h"
 #include "compare/files/frame_exr.h"
-#include "compare/files/our_files.h"
 #include "compare/files/output.h"
 #include "compare/report/json.h"
 #include "compare/report/titles.h"

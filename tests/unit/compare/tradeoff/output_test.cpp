@@ -279,8 +279,8 @@ TEST(TradeoffOutput, SeveralCamerasAreMeansAndSpreads) {
     EXPECT_DOUBLE_EQ(made[Measure::ms_min], (1.8 + 3) / 2);
     EXPECT_DOUBLE_EQ(made[Measure::ms_max], (3.0 + 10) / 2);
     EXPECT_EQ(made[Measure::frames], 10);
-    EXPECT_EQ(spreadOf(made, Measure::flip).low, 0.25);
-    EXPECT_EQ(spreadOf(made, Measure::relative_rmse).high, 1);
+    EXPECT_EQ(cameraRangeOf(made, Measure::flip).low, 0.25);
+    EXPECT_EQ(cameraRangeOf(made, Measure::relative_rmse).high, 1);
     EXPECT_EQ(made[Measure::memory], 5000);
     EXPECT_FALSE(made.measured.has(Measure::shaded)) << "one camera has none";
     EXPECT_DOUBLE_EQ(made.passes[0].ms, 1);
@@ -298,7 +298,7 @@ TEST(TradeoffOutput, TwoVisitsCountAlikeAndTellTheDrift) {
     EXPECT_DOUBLE_EQ(twice[Measure::ms_min], 7.2);
     EXPECT_DOUBLE_EQ(twice[Measure::ms_max], 17);
     EXPECT_EQ(twice[Measure::frames], 7);
-    const std::optional<Spread> drift = driftOf(tradeoff);
+    const std::optional<CameraRange> drift = driftOf(tradeoff);
     ASSERT_TRUE(drift);
     EXPECT_DOUBLE_EQ(drift->value, 1);
     EXPECT_DOUBLE_EQ(drift->low, 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/files/our_files.h"
+#include "compare/files/diptych_files.h"
 
 #include "shared/text/input_file.h"
 #include "shared/text/json.h"
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The marks and the file list of our file; null if diptych did not write it.
-nlohmann::json ourJson(const fs::path& file) {
+nlohmann::json diptychJson(const fs::path& file) {
     try {
         nlohmann::json json = jsonIn(file, [](int depth, const std::string& key) {
             return depth > 1 || key == "software" || key == "schema" || key == "files";
@@ -60,7 +60,7 @@ bool isPlainFolder(const fs::path& name) {
 
 // Both formats name the software before the pixels. Compares the EXR attribute (name, type, size, value)
 // and the PNG chunk (size, type, keyword, text) byte for byte.
-bool isOurImage(const fs::path& file) {
+bool isDiptychImage(const fs::path& file) {
     using namespace std::string_literals;
     std::string head;
     try {
@@ -77,11 +77,11 @@ bool isOurImage(const fs::path& file) {
            contains("\x89PNG\r\n\x1a\n"s, "\0\0\0\x10tEXtSoftware\0"s);
 }
 
-bool isOurManifest(const fs::path& file) {
-    return ourJson(file).is_object();
+bool isDiptychManifest(const fs::path& file) {
+    return diptychJson(file).is_object();
 }
 
-bool isOurName(const fs::path& name) {
+bool isDiptychFileName(const fs::path& name) {
     const fs::path folders = name.parent_path();
     if (name.native().size() > longest_path || name.filename().native().size() > longest_name) return false;
     return isPlainFile(name.filename()) && std::ranges::all_of(folders, isPlainFolder);
@@ -100,16 +100,16 @@ fs::path reportFile(const fs::path& report) {
 }
 
 std::vector<std::string> listedIn(const fs::path& manifest) {
-    const nlohmann::json json = ourJson(manifest);
+    const nlohmann::json json = diptychJson(manifest);
     std::vector<std::string> names;
     if (json.contains("files") && json["files"].is_array())
         for (const auto& name : json["files"])
-            if (name.is_string() && isOurName(name.get<std::string>())) names.push_back(name);
+            if (name.is_string() && isDiptychFileName(name.get<std::string>())) names.push_back(name);
     return names;
 }
 
 std::vector<std::string> manifestFiles(const fs::path& folder, const std::string& manifest) {
-    if (!isOurManifest(folder / manifest)) return {};
+    if (!isDiptychManifest(folder / manifest)) return {};
     std::vector<std::string> names = listedIn(folder / manifest);
     if (std::ranges::count(names, manifest) == 0) names.push_back(manifest);
     return names;
