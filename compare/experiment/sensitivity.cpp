@@ -2,7 +2,7 @@
 #include "compare/experiment/sensitivity.h"
 
 #include "shared/environment/harmonics.h"
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/scene/model/material_slots.h"
 
 #include <algorithm>

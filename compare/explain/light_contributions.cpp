@@ -2,8 +2,8 @@
 #include "compare/explain/light_contributions.h"
 
 #include "compare/explain/frame_images.h"
-#include "shared/scene/lights/casters.h"
 #include "shared/scene/lights/lights_json.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/scene/model/luminance.h"
 
 #include <tbb/parallel_for.h>

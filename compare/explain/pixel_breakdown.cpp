@@ -11,8 +11,8 @@
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/frame/supported_channels.h"
-#include "shared/scene/lights/casters.h"
 #include "shared/scene/lights/lights_json.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/text/one_line.h"
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 #include "compare/render/host_memory.h"
 
 #include "compare/frames/frame_properties.h"
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

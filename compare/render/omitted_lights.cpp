@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compare/render/omitted_lights.h"
 
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>

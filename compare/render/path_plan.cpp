@@ -5,7 +5,7 @@
 #include "compare/render/prepared_view.h"
 #include "compare/render/sample_counts.h"
 #include "shared/material/gbuffer_layout.h"
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/text/counted.h"
 
 #include <fmt/format.h>

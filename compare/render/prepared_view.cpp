@@ -7,7 +7,7 @@
 #include "shared/draw/pipeline_parts.h"
 #include "shared/draw/resolve.h"
 #include "shared/light/cutoff.h"
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/transparent/transparent.h"
 
 #include <fmt/format.h>

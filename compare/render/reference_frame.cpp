@@ -12,7 +12,7 @@
 #include "compare/run/version.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/text/open_folder.h"
 
 #include <fmt/format.h>

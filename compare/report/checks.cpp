@@ -38,7 +38,7 @@ public:
           lit_(channelOr(Channel::lit, anyChannel())),
           dark_(channelOr(Channel::albedo, lit_)) {}
 
-    bool areThere() const { return lit_ != npos; }
+    bool exist() const { return lit_ != npos; }
 
     // "#c0-lit@30,20?zoom=4&at=30,19.5": the box with a margin of a third, at most eight times enlarged.
     std::string to(const PixelBox& box) const {
@@ -102,7 +102,7 @@ void addRows(output::Table& table, const FeatureChecks& feature, const Links& li
         std::vector<Span>& spans = places.text.spans;
         if (!spans.empty()) spans.emplace_back(same > 1 ? " " : ", ");
         const std::string text = same > 1 ? fmt::format("{}", same) : check.name;
-        if (links.areThere())
+        if (links.exist())
             spans.emplace_back(text, Span::link, links.to(check.box));
         else
             spans.emplace_back(text, Span::foreign);
@@ -128,10 +128,9 @@ void addVisualChecks(std::vector<Block>& blocks, const Report& report, const Rep
         {output::Heading{2, "To check by eye"},
          output::Paragraph{
              fmt::format("Here both paths can be wrong in the same way, and no comparison shows it.{}",
-                         links.areThere()
-                             ? " Each link shows its place enlarged; where no light falls, in the "
-                               "base colour."
-                             : ""),
+                         links.exist() ? " Each link shows its place enlarged; where no light falls, in the "
+                                         "base colour."
+                                       : ""),
              "soft"},
          table},
         "eye-" + layout.ids[index]});

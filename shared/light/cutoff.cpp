@@ -2,7 +2,7 @@
 #include "shared/light/cutoff.h"
 
 #include "shared/contract/constants.h"
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/scene/motion/posed.h"
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/shadow/local_atlas.h"
 
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/scene/model/axes.h"
 #include "shared/shadow/scene_bounds.h"
 

@@ -3,7 +3,7 @@
 
 #include "shared/contract/bindings.h"
 #include "shared/draw/record.h"
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "shared/shadow/scene_bounds.h"
 #include "shared/text/counted.h"
 

@@ -4,7 +4,7 @@
 #include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/contract/debug_mode.h"
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 #include "tests/image/shadow_scenes.h"
 
 #include <fmt/format.h>

@@ -39,13 +39,13 @@ public:
     PrimitiveReader(const AttributeReader& all, const PrimitiveUse& use) : AttributeReader(all), use_(use) {}
 
     Primitive result() {
-        if (!drawsTriangles(file.mode)) return nothing("points or lines");
-        if (!file.attributes.contains("POSITION")) return nothing("has no POSITION");
+        if (!drawsTriangles(file.mode)) return skipped("points or lines");
+        if (!file.attributes.contains("POSITION")) return skipped("has no POSITION");
         result_.material = file.material;
         if (result_.material < 0) result_.material = static_cast<int>(use_.materials.size()) - 1;
         countVertices();
         readTriangles();
-        if (result_.indices.empty()) return nothing("has no triangles");
+        if (result_.indices.empty()) return skipped("has no triangles");
         keepTouched();
         readPositions();
         readAttributes();
@@ -62,7 +62,7 @@ private:
     std::size_t count_ = 0;               // vertices in the file
     std::vector<std::uint32_t> touched_;  // vertices that triangles use, ascending
 
-    Primitive nothing(const char* why) {
+    Primitive skipped(const char* why) {
         note("{}, left out", why);
         return {};
     }

@@ -115,11 +115,11 @@ inline RotatedMaps rotatedMaps(const Material& m, bool anisotropic) {
         m.anisotropy_texture.texture >= 0
             ? m.anisotropy_texture
             : TextureSlot{.texcoord = m.normal_texture.texture >= 0 ? m.normal_texture.texcoord : 0};
-    const bool coat_turned = coat.texture >= 0 && !sameDirections(base, coat),
-               turned = anisotropic && !sameDirections(base, own);
-    if (!coat_turned) return {turned ? gpu::LAYER_ANISOTROPY : 0, own};
-    const bool shared = turned && sameDirections(coat, own);
-    return {gpu::LAYER_CLEARCOAT | (shared ? gpu::LAYER_ANISOTROPY : 0), coat, turned && !shared};
+    const bool coat_rotated = coat.texture >= 0 && !sameDirections(base, coat),
+               rotated = anisotropic && !sameDirections(base, own);
+    if (!coat_rotated) return {rotated ? gpu::LAYER_ANISOTROPY : 0, own};
+    const bool shared = rotated && sameDirections(coat, own);
+    return {gpu::LAYER_CLEARCOAT | (shared ? gpu::LAYER_ANISOTROPY : 0), coat, rotated && !shared};
 }
 
 inline bool isTransformed(const TextureSlot& slot) {

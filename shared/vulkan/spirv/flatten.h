@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts small branches of a SPIR-V module to selections, for drivers whose compile time doubles with
-// every branch inside a loop (DeviceProfile::flattens_branches).
+// Converts small branches of a SPIR-V module to OpSelect instructions, for drivers whose compile time doubles
+// with every branch inside a loop (DeviceProfile::flattens_branches).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 
 #include "shared/contract/local_shadow.h"
 #include "shared/scene/model/luminance.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The lights that cast shadows.
-#include "shared/scene/lights/casters.h"
+#include "shared/scene/lights/shadow_casters.h"
 
 #include <gtest/gtest.h>
 
