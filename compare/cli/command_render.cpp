@@ -6,6 +6,7 @@
 #include "compare/files/diptych_files.h"
 #include "compare/files/frame_json.h"
 #include "compare/files/output_folder.h"
+#include "compare/frames/nonfinite.h"
 #include "compare/report/exposure_line.h"
 #include "compare/run/print.h"
 #include "shared/contract/debug_mode.h"
@@ -150,7 +151,7 @@ int runRender(const RenderLine& options) {
                  frame.time.runs > 0 ? fmt::format(", {:.2f} ms", frame.time.median) : "");
         if (output.kind != OutputKind::exr) printOut("  picture: {}\n", exposureLine(frame, image));
         for (const std::string& line : frame.notes) printOut("  note: {}\n", line);
-        for (const std::string& line : repairedText(frame)) printOut("  note: {}\n", line);
+        for (const std::string& line : nonfiniteText(frame)) printOut("  note: {}\n", line);
     }
     if (options.json) printOut("{}\n", jsonText(result));
     return 0;

@@ -5,6 +5,7 @@
 #include "compare/external/job.h"
 #include "compare/files/frame_exr.h"
 #include "compare/frames/frame_properties.h"
+#include "compare/frames/nonfinite.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/frame/debug_modes.h"
 #include "shared/image/srgb.h"

@@ -2,7 +2,6 @@
 #include "compare/frames/frame_properties.h"
 
 #include "shared/contract/surface_channels.h"
-#include "shared/frame/debug_modes.h"
 #include "shared/text/counted.h"
 #include "shared/vulkan/device/device.h"
 
@@ -10,9 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <iterator>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -91,15 +87,6 @@ FrameCamera cameraOf(const View& view) {
     return camera;
 }
 
-std::uint64_t nonfinitePixels(const Image& image) {
-    std::uint64_t count = 0;
-    for (std::size_t i = 0; i < image.pixels(); ++i) {
-        const float* p = image.pixel(i);
-        count += !std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); });
-    }
-    return count;
-}
-
 std::optional<std::string> overflowText(const Image& lit, LitFormat format) {
     if (format == LitFormat::fp32) return {};
     const std::array<float, 3> max = format == LitFormat::fp16 ? std::array{65504.0f, 65504.0f, 65504.0f}
@@ -112,40 +99,6 @@ std::optional<std::string> overflowText(const Image& lit, LitFormat format) {
     if (count == 0) return {};
     return fmt::format("lit: clamped to the range of {} at {}; use --lit-format fp32", nameOf(format),
                        counted(count, "pixel"));
-}
-
-std::vector<std::uint32_t> repairNonfinite(Image& image) {
-    std::vector<std::uint32_t> repaired;
-    if (nonfinitePixels(image) == 0) return repaired;
-    constexpr float max = std::numeric_limits<float>::max();
-    for (std::size_t i = 0; i < image.pixels(); ++i) {
-        float* const p = image.pixel(i);
-        if (std::all_of(p, p + image.components, [](float v) { return std::isfinite(v); })) continue;
-        repaired.push_back(static_cast<std::uint32_t>(i));
-        for (int c = 0; c < image.components; ++c)
-            if (!std::isfinite(p[c])) p[c] = std::isnan(p[c]) ? 0.0f : std::copysign(max, p[c]);
-    }
-    return repaired;
-}
-
-void addRepaired(Frame& frame, Channel channel, const std::vector<std::uint32_t>& pixels) {
-    if (pixels.empty()) return;
-    std::vector<std::uint32_t>& all = frame.repaired[channel];
-    std::vector<std::uint32_t> both;
-    std::ranges::set_union(all, pixels, std::back_inserter(both));
-    all = std::move(both);
-}
-
-std::vector<std::string> repairedText(const Frame& frame) {
-    std::vector<std::string> lines;
-    const auto width = static_cast<std::uint32_t>(frame.settings.size.width);
-    for (const auto& [mode, pixels] : frame.repaired)
-        lines.push_back(
-            fmt::format("{} was NaN or infinite at {}, the first at {},{}: replaced by 0 or the largest "
-                        "number, magenta in pictures",
-                        debugMode(mode).name, counted(pixels.size(), "pixel"), pixels.front() % width,
-                        pixels.front() / width));
-    return lines;
 }
 
 FrameTime timeOf(std::vector<double> ms) {

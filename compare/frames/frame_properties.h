@@ -31,22 +31,8 @@ FrameCamera cameraOf(const View& view);
 // The device as reports describe it.
 ReportDevice reportDevice(const Device& device);
 
-// Pixels with a component that is NaN or infinite.
-std::uint64_t nonfinitePixels(const Image& image);
-
 // A note if some lit values reach or exceed the largest value of their format; else empty.
 std::optional<std::string> overflowText(const Image& lit, LitFormat format);
-
-// Replaces NaN by 0 and infinities by the largest float32 of their sign. Returns the indices of repaired
-// pixels.
-std::vector<std::uint32_t> repairNonfinite(Image& image);
-
-// Adds repaired pixels of one of a channel's images: of any sample, through the G-buffer, before blending.
-void addRepaired(Frame& frame, Channel channel, const std::vector<std::uint32_t>& pixels);
-
-// One line for each repaired channel: "lit had 3 pixel(s) that were NaN or infinite, the first at 4,2:
-// ...".
-std::vector<std::string> repairedText(const Frame& frame);
 
 // Median, minimum and maximum, ms.
 FrameTime timeOf(std::vector<double> ms);

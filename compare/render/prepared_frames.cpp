@@ -2,6 +2,7 @@
 #include "compare/render/prepared_frames.h"
 
 #include "compare/frames/frame_properties.h"
+#include "compare/frames/nonfinite.h"
 #include "compare/render/prepared_view.h"
 
 #include <chrono>
@@ -80,7 +81,7 @@ Frame PreparedFrames::frame(std::size_t i) {
     Frame frame = described(i);
     readCounters(i, frame.counters);
     Image image = lit(i);
-    if (auto repaired = repairNonfinite(image); !repaired.empty()) {
+    if (auto repaired = replaceNonfinite(image); !repaired.empty()) {
         frame.counters.nonfinite_pixels = repaired.size();
         frame.repaired[Channel::lit] = std::move(repaired);
     }

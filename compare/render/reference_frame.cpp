@@ -3,6 +3,7 @@
 
 #include "compare/files/output.h"
 #include "compare/frames/frame_properties.h"
+#include "compare/frames/nonfinite.h"
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
 #include "compare/render/host_memory.h"
@@ -128,7 +129,7 @@ void takeImage(reference::ReferenceImage& rendered, Frame& frame) {
     frame.counters.nonfinite_pixels = nonfinitePixels(rendered.channels.at(Channel::lit));
     frame.channels = std::move(rendered.channels);
     for (auto& [mode, image] : frame.channels)
-        if (auto repaired = repairNonfinite(image); !repaired.empty())
+        if (auto repaired = replaceNonfinite(image); !repaired.empty())
             frame.repaired[mode] = std::move(repaired);
     frame.through_gbuffer = std::move(rendered.decoded);
     frame.rounding = std::move(rendered.rounding);

@@ -2,6 +2,7 @@
 #include "compare/render/renderer.h"
 
 #include "compare/frames/frame_properties.h"
+#include "compare/frames/nonfinite.h"
 #include "compare/metrics/channel.h"
 #include "compare/reference/reference.h"
 #include "compare/render/host_memory.h"
@@ -54,7 +55,7 @@ public:
         lit_ = readLit(prepared_);
         readCounters(prepared_.view, frame_.counters);
         if (auto cut = overflowText(lit_, settings_.lit_format)) frame_.notes.push_back(std::move(*cut));
-        if (auto repaired = repairNonfinite(lit_); !repaired.empty()) {
+        if (auto repaired = replaceNonfinite(lit_); !repaired.empty()) {
             frame_.counters.nonfinite_pixels = repaired.size();
             if (isRequested(Channel::lit)) frame_.repaired[Channel::lit] = std::move(repaired);
         }
@@ -142,7 +143,7 @@ private:
             prepared_.path.capture(passes, prepared_.view.inputs, prepared_.images, captureRequest());
         readCaptured(first, captured,
                      [this](const CapturedImage& read, Image image, const Repaired& repaired) {
-                         if (isRequested(read.mode)) addRepaired(frame_, read.mode, repaired);
+                         if (isRequested(read.mode)) recordNonfinite(frame_, read.mode, repaired);
                          if (read.before_blending) return takeUnblended(read, std::move(image));
                          if (read.sample > 0) {
                              keepInFile(image.data);
@@ -170,7 +171,7 @@ private:
             for (const auto& [buffer, hash] : passes.kernelResults(0, first))
                 if (hash != kernels_.at(buffer)) frame_.changed_buffers.push_back(buffer);
             Image again = readLit(prepared_);
-            repairNonfinite(again);
+            replaceNonfinite(again);
             addNoise(Channel::lit, again);
         }
         if (options_.twice == Twice::all) {
@@ -210,7 +211,7 @@ private:
                         break;
                 std::vector<Image> read = readImages(passes, requests);
                 for (std::size_t i = 0; i < read.size(); ++i) {
-                    const Repaired repaired = repairNonfinite(read[i]);
+                    const Repaired repaired = replaceNonfinite(read[i]);
                     take(captured[i], std::move(read[i]), repaired);
                 }
                 captured = captured.subspan(read.size());

@@ -2,6 +2,7 @@
 #include "compare/verdict/comparison.h"
 
 #include "compare/frames/frame_properties.h"
+#include "compare/frames/nonfinite.h"
 #include "compare/verdict/across_devices.h"
 #include "compare/verdict/encoding_bits.h"
 #include "compare/verdict/surface_grid.h"
@@ -52,7 +53,7 @@ void readCounters(const Frame& frame, Comparison& comparison) {
     if (counters.nonfinite_pixels > 0)
         comparison.failures.push_back(fmt::format("{}: lit is NaN or infinite at {}", frame.name,
                                                   counted(counters.nonfinite_pixels, "pixel")));
-    for (const std::string& line : repairedText(frame))
+    for (const std::string& line : nonfiniteText(frame))
         comparison.failures.push_back(frame.name + ": " + line);
 }
 

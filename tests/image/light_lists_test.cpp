@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // With every light assignment the image equals that of assignment every, bit for bit.
 #include "compare/frames/frame_properties.h"
+#include "compare/frames/nonfinite.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/rig.h"
 #include "shared/scene/load.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The transparency modes, compared with exact sorting in double.
+#include "compare/frames/nonfinite.h"
 #include "shared/scene/builtin/builder.h"
 #include "tests/image/changed_view.h"
 

@@ -2,6 +2,7 @@
 #include "compare/viewer/drawing/pair_renderer.h"
 
 #include "compare/frames/frame_properties.h"
+#include "compare/frames/nonfinite.h"
 #include "compare/render/load_scene.h"
 #include "shared/frame/debug_modes.h"
 
@@ -125,7 +126,7 @@ std::array<Frame, 2> PairRenderer::drawLit(const Subject& subject, const Size& s
         frame.time.median = std::accumulate(frame.passes.begin(), frame.passes.end(), 0.0,
                                             [](double sum, const PassTime& pass) { return sum + pass.ms; });
         frame.channels[Channel::lit] = prepared.lit(i);
-        if (auto repaired = repairNonfinite(frame.channels[Channel::lit]); !repaired.empty()) {
+        if (auto repaired = replaceNonfinite(frame.channels[Channel::lit]); !repaired.empty()) {
             frame.counters.nonfinite_pixels = repaired.size();
             frame.repaired[Channel::lit] = std::move(repaired);
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A Frame's metadata on its scene, camera and times, and on a reference's uncertainty.
 #include "compare/frames/frame_properties.h"
+#include "compare/frames/nonfinite.h"
 
 #include "compare/metrics/channel.h"
 #include "compare/render/reference_frame.h"
@@ -65,11 +66,11 @@ TEST(FrameProperties, WhatIsNoNumberIsRepairedAndNamed) {
     constexpr float infinity = std::numeric_limits<float>::infinity(),
                     max = std::numeric_limits<float>::max();
     Image image(3, 2, 3, 0.5f);
-    EXPECT_TRUE(repairNonfinite(image).empty());
+    EXPECT_TRUE(replaceNonfinite(image).empty());
     image.at(1, 0, 1) = infinity;
     image.at(2, 1, 0) = std::numeric_limits<float>::quiet_NaN();
     image.at(2, 1, 2) = -infinity;
-    EXPECT_EQ(repairNonfinite(image), (std::vector<std::uint32_t>{1, 5}));
+    EXPECT_EQ(replaceNonfinite(image), (std::vector<std::uint32_t>{1, 5}));
     EXPECT_EQ(nonfinitePixels(image), 0u);
     EXPECT_EQ(image.at(1, 0, 0), 0.5f) << "the other components stay";
     EXPECT_EQ(image.at(1, 0, 1), max);
@@ -77,10 +78,10 @@ TEST(FrameProperties, WhatIsNoNumberIsRepairedAndNamed) {
     EXPECT_EQ(image.at(2, 1, 2), -max);
 
     Frame frame;
-    addRepaired(frame, Channel::normals, {});
+    recordNonfinite(frame, Channel::normals, {});
     EXPECT_TRUE(frame.repaired.empty());
-    addRepaired(frame, Channel::normals, {1, 5});
-    addRepaired(frame, Channel::normals, {0, 5, 7});
+    recordNonfinite(frame, Channel::normals, {1, 5});
+    recordNonfinite(frame, Channel::normals, {0, 5, 7});
     EXPECT_EQ(frame.repaired.at(Channel::normals), (std::vector<std::uint32_t>{0, 1, 5, 7}));
 }
 
