@@ -57,6 +57,23 @@ Cell litCell(const IndexRow& row) {
     return rowNumber(0, "");
 }
 
+// Attributes of the rows, which the page's scripts read.
+void addRowData(const Report& report, const ReportLayout& layout, const ReportTexts& texts,
+                output::Table& table) {
+    const std::vector<Comparison>& all = report.comparisons;
+    for (std::size_t at = 0; at < table.rows.size(); ++at) {
+        const std::size_t i = layout.order[at];
+        auto& data = table.rows[at].data;
+        data = {{"comparison", layout.ids[i]}, {"camera", rowTitle(report, all[i])}};
+        if (!all[i].passed()) data.emplace_back("scene", report.baseline(all[i]).scene);
+        if (!layout.sections[i].empty())
+            data.insert(data.end(),
+                        {{"section", layout.sections[i]}, {"title", sectionTitle(report, layout, i)}});
+        if (texts.since) data.emplace_back("since", nameOf(texts.since->comparisons[i].kind));
+        if (!texts.rows[i].cause.empty()) data.emplace_back("cause", texts.rows[i].cause);
+    }
+}
+
 output::Table tableOf(const Report& report, const ReportLayout& layout, const ReportTexts& texts) {
     const std::vector<Comparison>& all = report.comparisons;
     const bool pairs = hasMultiplePairs(report);
@@ -110,17 +127,7 @@ output::Table tableOf(const Report& report, const ReportLayout& layout, const Re
                                       "that accepts this difference\">accept</button>",
                     Span::drawn);
     });
-    for (std::size_t at = 0; at < table.rows.size(); ++at) {
-        const std::size_t i = layout.order[at];
-        auto& data = table.rows[at].data;
-        data = {{"comparison", layout.ids[i]}, {"camera", rowTitle(report, all[i])}};
-        if (!all[i].passed()) data.emplace_back("scene", report.baseline(all[i]).scene);
-        if (!layout.sections[i].empty())
-            data.insert(data.end(),
-                        {{"section", layout.sections[i]}, {"title", sectionTitle(report, layout, i)}});
-        if (texts.since) data.emplace_back("since", nameOf(texts.since->comparisons[i].kind));
-        if (!texts.rows[i].cause.empty()) data.emplace_back("cause", texts.rows[i].cause);
-    }
+    addRowData(report, layout, texts, table);
     return table;
 }
 

@@ -5,8 +5,6 @@
 
 #include "compare/viewer/interface/interface_state.h"
 
-#include <cstdint>
-#include <string>
 #include <vector>
 
 namespace diptych::viewer {
@@ -14,8 +12,5 @@ namespace diptych::viewer {
 // Draws the interface and applies user actions to the state. `panel_rects`: the panels in the canvas.
 void drawInterface(InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
                    const std::vector<PanelRect>& panel_rects, double scale);
-
-// Text over an image, outlined so that it is readable on any background.
-void drawOutlined(float x, float y, std::uint32_t color, const std::string& text);
 
 }  // namespace diptych::viewer

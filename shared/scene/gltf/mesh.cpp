@@ -61,6 +61,21 @@ void checkSize(const Model& model, std::vector<Task>& tasks) {
     }
 }
 
+// Appends the notes of all tasks, and keeps the first fault of each mesh.
+void collectFaults(std::vector<Task>& tasks, std::map<std::size_t, std::string>& faults,
+                   std::vector<std::string>& notes) {
+    for (Task& task : tasks) {
+        if (task.fault.empty()) {
+            std::ranges::move(task.notes, std::back_inserter(notes));
+            continue;
+        }
+        faults.emplace(task.mesh, task.fault);
+        notes.push_back(task.fault.starts_with(task.who())
+                            ? task.fault + ": left out"
+                            : fmt::format("{}: left out, it needs {}", task.who(), task.fault));
+    }
+}
+
 }  // namespace
 
 std::vector<Mesh> readMeshes(const Model& model, const Scene& scene,
@@ -115,16 +130,7 @@ std::vector<Mesh> readMeshes(const Model& model, const Scene& scene,
         std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });
         any = any || !mesh.primitives.empty();
     }
-    for (Task& task : tasks) {
-        if (task.fault.empty()) {
-            std::ranges::move(task.notes, std::back_inserter(notes));
-            continue;
-        }
-        faults.emplace(task.mesh, task.fault);
-        notes.push_back(task.fault.starts_with(task.who())
-                            ? task.fault + ": left out"
-                            : fmt::format("{}: left out, it needs {}", task.who(), task.fault));
-    }
+    collectFaults(tasks, faults, notes);
     if (!any && !faults.empty()) fail(faults.begin()->second);
     limitNotes(notes, before, "meshes");
     return meshes;

@@ -74,6 +74,51 @@ TangentRotation between(const glm::vec3& normal, const glm::vec4& from, const gl
     return {rotation.x / length, rotation.y / length, (from.w < 0) != (to.w < 0)};
 }
 
+constexpr std::uint32_t ungrouped = ~0u;
+
+struct SplitVertices {
+    std::vector<std::uint32_t> source;  // the vertex of the primitive that each copies
+    std::vector<glm::vec4> tangents;    // 0: no triangle uses the vertex
+    std::vector<std::uint32_t> groups;  // `ungrouped` if tangents do not move
+};
+
+// A vertex keeps its first tangent, and is copied for each other tangent (or group).
+// Corners with equal tangents share a copy if the search is short: a vertex of a million triangles may
+// have a million tangents.
+template <class TangentAt, class GroupAt>
+SplitVertices splitByTangent(Primitive& primitive, const TangentAt& tangentAt, const GroupAt& groupAt) {
+    constexpr std::uint32_t last = ungrouped;
+    constexpr int maxShared = 16;
+    std::vector<std::uint32_t> source(primitive.positions.size());
+    for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
+    std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: not set
+    std::vector<std::uint32_t> groups(source.size(), last);        // `last` if tangents do not move
+    std::vector<std::uint32_t> nextCopy(source.size(), last);
+    for (std::size_t corner = 0; corner < primitive.indices.size(); ++corner) {
+        const glm::vec4 tangent = tangentAt(corner);
+        const std::uint32_t group = groupAt(corner);
+        std::uint32_t v = primitive.indices[corner];
+        for (int copies = 0; tangents[v] != glm::vec4(0) && (tangents[v] != tangent || groups[v] != group);
+             ++copies) {
+            if (nextCopy[v] == last || copies == maxShared) {
+                const auto copy = static_cast<std::uint32_t>(source.size());
+                if (copies < maxShared) nextCopy[v] = copy;
+                source.push_back(source[v]);
+                tangents.push_back(glm::vec4(0));
+                groups.push_back(last);
+                nextCopy.push_back(last);
+                v = copy;
+            } else {
+                v = nextCopy[v];
+            }
+        }
+        tangents[v] = tangent;
+        groups[v] = group;
+        primitive.indices[corner] = v;
+    }
+    return {std::move(source), std::move(tangents), std::move(groups)};
+}
+
 }  // namespace
 
 TangentRotation TangentRotation::of(float w) {
@@ -144,44 +189,14 @@ void makeTangents(Primitive& primitive, const TextureSlot& map, bool map_turns, 
                       return movesTangents(target, map.texcoord);
                   }));
 
-    // A vertex keeps its first tangent, and is copied for each other tangent (or group, if tangents move).
-    // Corners with equal tangents share a copy if the search is short: a vertex of a million triangles may
-    // have a million tangents.
-    constexpr std::uint32_t last = ~0u;
-    constexpr int maxShared = 16;
-    std::vector<std::uint32_t> source(primitive.positions.size());
-    for (std::uint32_t v = 0; v < source.size(); ++v) source[v] = v;
-    std::vector<glm::vec4> tangents(source.size(), glm::vec4(0));  // 0: not set
-    std::vector<std::uint32_t> groups(source.size(), last);        // `last` if tangents do not move
-    std::vector<std::uint32_t> nextCopy(source.size(), last);
-    for (std::size_t corner = 0; corner < primitive.indices.size(); ++corner) {
-        const glm::vec4 tangent = tangentAt(corner);
-        const std::uint32_t group = moves ? space->groupAt(corner) : last;
-        std::uint32_t v = primitive.indices[corner];
-        for (int copies = 0; tangents[v] != glm::vec4(0) && (tangents[v] != tangent || groups[v] != group);
-             ++copies) {
-            if (nextCopy[v] == last || copies == maxShared) {
-                const auto copy = static_cast<std::uint32_t>(source.size());
-                if (copies < maxShared) nextCopy[v] = copy;
-                source.push_back(source[v]);
-                tangents.push_back(glm::vec4(0));
-                groups.push_back(last);
-                nextCopy.push_back(last);
-                v = copy;
-            } else {
-                v = nextCopy[v];
-            }
-        }
-        tangents[v] = tangent;
-        groups[v] = group;
-        primitive.indices[corner] = v;
-    }
+    SplitVertices split = splitByTangent(
+        primitive, tangentAt, [&](std::size_t corner) { return moves ? space->groupAt(corner) : ungrouped; });
     TangentGroups made;  // before gather(), which replaces the vertices that `space` refers to
-    if (moves) made = groupsOf(*space, primitive.indices, groups);
-    gather(primitive, source);
-    for (std::size_t v = 0; v < tangents.size(); ++v)
-        if (tangents[v] == glm::vec4(0)) tangents[v] = anyTangent(primitive.normals[v]);
-    primitive.tangents = std::move(tangents);
+    if (moves) made = groupsOf(*space, primitive.indices, split.groups);
+    gather(primitive, split.source);
+    for (std::size_t v = 0; v < split.tangents.size(); ++v)
+        if (split.tangents[v] == glm::vec4(0)) split.tangents[v] = anyTangent(primitive.normals[v]);
+    primitive.tangents = std::move(split.tangents);
     primitive.tangent_groups = std::move(made);
 }
 

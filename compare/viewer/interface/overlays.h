@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What is drawn over the images: panel titles, the wipe line, colour legends, pixel values, lights and the
+// chosen pixel.
+#pragma once
+
+#include "compare/viewer/interface/interface_state.h"
+
+#include <vector>
+
+namespace diptych::viewer {
+
+// Draws them all over the shown images, which must exist. `scale`: of the interface.
+void drawOverlays(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
+                  const std::vector<PanelRect>& panel_rects, float scale);
+
+}  // namespace diptych::viewer
