@@ -138,6 +138,7 @@ Predicted predictFov(const Subject& subject, const Settings&, double) {
 
 }  // namespace
 
+// One table, longer than a function should be.
 std::vector<Quantity> transformQuantities() {
     constexpr auto originalNone = [](const Subject&) { return 0.0; };
     return {

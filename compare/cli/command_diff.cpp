@@ -68,7 +68,7 @@ void resolveDiff(DiffLine& options) {
     diff.strict = options.strict;
     diff.allow_empty = options.allow_empty;
     diff.metric_requested = !options.metric_text.empty();
-    diff.metric = metricOfMetric(diff.metric_requested ? options.metric_text : "flip");
+    diff.metric = metricOfOption(diff.metric_requested ? options.metric_text : "flip");
     if (diff.failing && diff.metric_requested)
         refuse("--failing: counts pixels by the channel's own error; leave out --metric");
     if (!std::isfinite(diff.blur)) refuse("--blur: must be a finite number of pixels");

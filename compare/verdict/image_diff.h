@@ -16,7 +16,7 @@
 namespace diptych {
 
 struct ImageDiffOptions {
-    std::string metric = "flip";        // decides for channels without a rule; as from metricOfMetric()
+    std::string metric = "flip";        // decides for channels without a rule; as from metricOfOption()
     bool metric_requested = false;      // by the user
     double tolerance = 0;               // largest value that passes; for psnr and ssim the smallest
     std::optional<double> warn;         // values beyond it give a warning
@@ -79,6 +79,6 @@ ImageDiff diffImages(const std::string& reference, const std::string& test, cons
 
 // The metric for --metric NAME: metrics() and "relative" (relative_max), "angular" (angle_max), "ulp"
 // (ulp_max). Throws std::runtime_error naming all.
-std::string metricOfMetric(const std::string& name);
+std::string metricOfOption(const std::string& name);
 
 }  // namespace diptych

@@ -44,6 +44,8 @@ double secondsBetween(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
+// The loop and its events, in one class and so in one long file: nearly every function reads and changes the
+// same state.
 class Viewer {
 public:
     explicit Viewer(const ViewerOptions& options)

@@ -34,6 +34,7 @@ shared uint shown[WORDS];                    // one bit per triangle
 
 uint bitsBefore(const uint lane) { return (1u << (lane & 31u)) - 1u; }
 
+// One function, because its barriers must be reached by the whole workgroup.
 void main() {
     uint part_index = gl_WorkGroupID.y * CULLING_GROUPS + gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;
     if (part_index >= constants.part_count) return;

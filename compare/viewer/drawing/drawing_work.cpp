@@ -40,6 +40,8 @@ constexpr int maxRecoveries = 3;
 // Aborts work that is no longer needed.
 struct Superseded {};
 
+// A request's steps in order, in one class and so in one long file: each goes on from what those before it
+// left.
 class DrawingWork {
 public:
     DrawingWork(const DrawingOptions& options, Mailbox& box)

@@ -53,6 +53,7 @@ bool switchRig(InterfaceState& state) {
 
 }  // namespace
 
+// One case an action, so longer than a function should be.
 std::optional<std::string> actOnState(const KeyPress& pressed, bool shift, const Contents& contents,
                                       InterfaceState& state) {
     switch (pressed.action) {
