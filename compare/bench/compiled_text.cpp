@@ -110,8 +110,8 @@ std::string compiledText(std::span<const CompiledPath> paths, const DeviceInfo& 
                 continue;
             }
             text += fmt::format(" | {:>10}", cell.pipelines);
-            for (const ShaderCostRow& row : shaderCostRows())
-                if (row.shown) text += fmt::format("{:>10}", numberOr(cell.heaviest.*row.value, "-"));
+            for (const ShaderCostRow& cost : shaderCostRows())
+                if (cost.shown) text += fmt::format("{:>10}", numberOr(cell.heaviest.*cost.value, "-"));
         }
         while (text.ends_with(' ')) text.pop_back();
         text += '\n';

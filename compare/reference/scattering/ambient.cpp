@@ -88,9 +88,9 @@ private:
     glm::dvec3 stretchedLobe() const {
         const Widths& w = brdf_.widths();
         const glm::dvec3 v = brdf_.toViewer();
-        constexpr double pi = std::numbers::pi, right = pi / 2;
+        constexpr double right = std::numbers::pi / 2;
         const double start = std::atan2(w.across * glm::dot(w.y, v), w.along * glm::dot(w.x, v)) - right;
-        std::array<double, 7> ends{start, start + pi, start + 2 * pi};
+        std::array<double, 7> ends{start, start + 2 * right, start + 4 * right};
         for (int i = 0; i < 4; ++i)
             ends[static_cast<std::size_t>(3 + i)] = right * (std::ceil(start / right) + i);
         std::ranges::sort(ends);

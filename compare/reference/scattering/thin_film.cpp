@@ -13,12 +13,12 @@ namespace {
 
 using std::numbers::pi;
 
-double square(double x) {
+double squared(double x) {
     return x * x;
 }
 double schlick(double f0, double cosine) {
     const double x = 1 - cosine;
-    return f0 + (1 - f0) * square(square(x)) * x;
+    return f0 + (1 - f0) * squared(squared(x)) * x;
 }
 
 // A Gaussian of a CIE 1931 matching function over wavenumbers, fitted by the paper: height, middle (1/m)
@@ -29,7 +29,7 @@ struct Gaussian {
     // Its Fourier transform at the path difference `phase` / (2 pi), m.
     double transformed(double phase, double shift) const {
         return height * std::sqrt(2 * pi * variance) * std::cos(middle * phase + shift) *
-               std::exp(-variance * square(phase));
+               std::exp(-variance * squared(phase));
     }
 };
 
@@ -54,17 +54,17 @@ glm::dvec3 ThinFilm::reflected(double cosine, const glm::dvec3& f0) const {
     const double outer = std::clamp(cosine, 0.0, 1.0);
     const double fraction = std::clamp(thickness / 0.03, 0.0, 1.0);  // a film fades out below 0.03 nm
     // Its upper face fades with it: Schlick's curve would reflect at grazing angles with air on both sides.
-    const double present = square(fraction) * (3 - 2 * fraction), n = std::lerp(1.0, ior, present);
-    const double inner = std::sqrt(std::max(1 - (1 - square(outer)) / square(n), 0.0));
-    const double top = present * schlick(square((n - 1) / (n + 1)), outer), passed = 1 - top;
+    const double present = squared(fraction) * (3 - 2 * fraction), n = std::lerp(1.0, ior, present);
+    const double inner = std::sqrt(std::max(1 - (1 - squared(outer)) / squared(n), 0.0));
+    const double top = present * schlick(squared((n - 1) / (n + 1)), outer), passed = 1 - top;
     glm::dvec3 bottom, shift;
     for (int c = 0; c < 3; ++c) {
         const double root = std::sqrt(std::clamp(f0[c], 0.0, 0.9999)), base = (1 + root) / (1 - root);
-        bottom[c] = schlick(square((base - n) / (base + n)), inner);
+        bottom[c] = schlick(squared((base - n) / (base + n)), inner);
         shift[c] = base < n * (1 - 1e-5) ? 2 * pi : pi;  // as equal: indices that float32 may round apart
     }
     const glm::dvec3 cycle = glm::min(top * bottom, glm::dvec3(0.9999)),
-                     within = square(passed) * bottom / (1.0 - cycle);
+                     within = squared(passed) * bottom / (1.0 - cycle);
     glm::dvec3 sum = top + within, order = within - passed;
     for (const double m : {1.0, 2.0}) {
         order *= glm::sqrt(cycle);
