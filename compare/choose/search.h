@@ -63,7 +63,7 @@ struct SearchOptions {
 };
 
 enum class CandidateStatus {
-    slower,    // timed, slower than the best; not judged
+    slower,    // timed, slower than the best; not evaluated
     misses,    // exceeds the error or memory
     too_slow,  // exceeds the time
     fits,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prepared frames of an experiment's rows, which are judged once and timed several times.
+// Prepared frames of an experiment's rows, which are evaluated once and timed several times.
 #pragma once
 
 #include "compare/render/renderer.h"

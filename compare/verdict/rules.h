@@ -136,7 +136,7 @@ void evaluateOneSided(const std::string& channel, const std::string& owner, cons
 void checkChannels(std::span<const Rule> rules, const std::vector<std::string>& known);
 
 // Reads a tolerance file (tolerances.schema.json). Every rule has a reason. Throws std::runtime_error, one
-// line: "FILE: rule 2: no such figure maxx; there are ...".
+// line: "FILE: rule 2: unknown metric maxx; use one of ...".
 std::vector<Rule> readRules(const std::filesystem::path& file);
 std::vector<Rule> rulesFromJson(std::string_view text, const std::string& name);
 

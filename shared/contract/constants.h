@@ -11,8 +11,7 @@ CONTRACT_CONST(float, PI, 3.14159265358979323846f);
 CONTRACT_CONST(float, INVERSE_PI, 0.31830988618379067154f);
 
 // Smallest perceptual roughness that is shaded: on a perfect mirror, a punctual light's highlight is a
-// delta. Filament uses the same 0.045: the smallest value whose alpha^2 is representable in half
-// precision.
+// delta. Filament uses the same 0.045 on desktops.
 CONTRACT_CONST(float, MIN_PERCEPTUAL_ROUGHNESS, 0.045f);
 
 // Smallest n.v that is shaded: a normal map may turn the normal of a visible surface away from the viewer.

@@ -39,7 +39,7 @@ struct ImageSize {
 };
 
 // Throws std::runtime_error if an image of this size exceeds the limits or needs more than `most` bytes:
-// "claims 100000 x 4 pixels: 1 to 65536 a side are read".
+// "claims 100000 x 4 pixels; each side must be 1 to 65536".
 void checkImageSize(std::int64_t width, std::int64_t height, std::int64_t bytesPerPixel, std::uint64_t max);
 
 // For a file that is too short for its image even at the best compression.

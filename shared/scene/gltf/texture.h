@@ -15,8 +15,8 @@ namespace diptych::gltf {
 struct Model;
 
 // Reads the document's textures and samplers in the file's order; image indices are the file's. Returns the
-// fault of each texture, such as "sampler 0: 1 is no wrap mode", or an empty string. A fault matters only to
-// materials that read the texture.
+// fault of each texture, such as "sampler 0: 1 is not a wrap mode", or an empty string. A fault matters only
+// to materials that read the texture.
 std::vector<std::string> readTextures(const nlohmann::json& document, Scene& scene);
 
 // The texture's first extension with an unsupported image format; nullptr: none.

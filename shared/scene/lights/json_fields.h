@@ -19,8 +19,8 @@ public:
 
     [[noreturn]] void fail(std::string_view key, const std::string& why) const;
     const nlohmann::json* find(std::string_view key) const;
-    // Throws if a key is not in `known`, and calls it "no field of `what`", because a misspelt key would
-    // silently keep its default. "extras" is always allowed.
+    // Throws if a key is not in `known`, and calls it "not a known field of `what`", because a misspelt key
+    // would silently keep its default. "extras" is always allowed.
     void knownOnly(std::span<const std::string_view> known, std::string_view what) const;
 
     std::string text(std::string_view key, const std::string& fallback) const;  // a single line
