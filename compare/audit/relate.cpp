@@ -58,10 +58,10 @@ std::map<Channel, double> packedBounds(const Settings& settings) {
     needs.emission = true;
     needs.surface_layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_SHEEN | gpu::LAYER_IRIDESCENCE;
     std::map<Channel, double> bounds;
-    for (const Channel mode : relatedChannels())
-        if (const auto field = storedField(mode, settings.gbuffer, needs))
-            bounds[mode] = isAngle(debugMode(mode).error_kind) ? glm::radians(field->largestBound())
-                                                               : field->largestBound();
+    for (const Channel channel : relatedChannels())
+        if (const auto field = storedField(channel, settings.gbuffer, needs))
+            bounds[channel] = isAngle(debugMode(channel).error_kind) ? glm::radians(field->largestBound())
+                                                                     : field->largestBound();
     return bounds;
 }
 

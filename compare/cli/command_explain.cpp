@@ -178,8 +178,8 @@ int explainScene(const ExplainLine& options) {
     RenderOptions drawing = renderOptions(options);
     drawing.channels = explainedChannels();
     if (other)
-        for (const Channel mode : deviceContributionChannels())
-            if (std::ranges::count(drawing.channels, mode) == 0) drawing.channels.push_back(mode);
+        for (const Channel channel : deviceContributionChannels())
+            if (std::ranges::count(drawing.channels, channel) == 0) drawing.channels.push_back(channel);
     drawing.runs = 0;
     drawing.progress = stage.part(0.1, 0.25);
     const Frame a = renderer.draw(baseline, drawing);

@@ -34,9 +34,9 @@ std::vector<Between> betweenCentres(int from, int to) {
     return all;
 }
 
-const Image& channelOf(const Frame& frame, Channel mode) {
-    if (const Image* const image = findChannel(frame, mode)) return *image;
-    throw std::runtime_error(frame.name + ": has no channel " + std::string(debugMode(mode).name) +
+const Image& channelOf(const Frame& frame, Channel channel) {
+    if (const Image* const image = findChannel(frame, channel)) return *image;
+    throw std::runtime_error(frame.name + ": has no channel " + std::string(debugMode(channel).name) +
                              " to resize");
 }
 

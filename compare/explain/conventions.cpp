@@ -135,8 +135,9 @@ Frame substituteChannels(const Frame& external, const Frame& plain, Renderer& re
     frame.settings = ours.settings;
     frame.requested.clear();
     // Only explained channels: our lighting sums describe our own image.
-    for (const Channel mode : options.channels)
-        if (const Image* const image = findChannel(ours, mode)) frame.channels.try_emplace(mode, *image);
+    for (const Channel channel : options.channels)
+        if (const Image* const image = findChannel(ours, channel))
+            frame.channels.try_emplace(channel, *image);
     return frame;
 }
 

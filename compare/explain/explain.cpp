@@ -39,13 +39,13 @@ void checkExplained(const Frame& baseline, const Frame& test) {
     const Image& lit = channelOf(baseline, Channel::lit);
     channelOf(test, Channel::lit);
     for (const Frame* const frame : {&baseline, &test})
-        for (const Channel mode : explainedChannels()) {
-            if (layerOf(mode) != 0 && !frame->channels.contains(mode)) continue;
-            const Image& image = channelOf(*frame, mode);
+        for (const Channel channel : explainedChannels()) {
+            if (layerOf(channel) != 0 && !frame->channels.contains(channel)) continue;
+            const Image& image = channelOf(*frame, channel);
             if (image.width != lit.width || image.height != lit.height)
                 throw std::runtime_error(fmt::format(
                     "{}: {} is {}x{}, but lit of {} is {}x{}; an explanation needs images of the same size",
-                    frame->name, debugMode(mode).name, image.width, image.height, baseline.name, lit.width,
+                    frame->name, debugMode(channel).name, image.width, image.height, baseline.name, lit.width,
                     lit.height));
         }
     for (const std::string_view option :

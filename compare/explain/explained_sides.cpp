@@ -47,8 +47,8 @@ std::string ExplainedSides::residualName() const {
 }
 
 bool ExplainedSides::haveTerms() const {
-    return std::ranges::all_of(termChannels(), [&](Channel mode) {
-        const Image *const a = findChannel(frame(0), mode), *const b = findChannel(frame(1), mode);
+    return std::ranges::all_of(termChannels(), [&](Channel channel) {
+        const Image *const a = findChannel(frame(0), channel), *const b = findChannel(frame(1), channel);
         return a && b && a->width == b->width && a->height == b->height && a->components == 3 &&
                b->components == 3;
     });

@@ -23,10 +23,10 @@ constexpr double darkest = 1e-3;  // fraction of the mean
 
 }  // namespace
 
-const Image& channelOf(const Frame& frame, Channel mode) {
-    if (const Image* const image = findChannel(frame, mode)) return *image;
+const Image& channelOf(const Frame& frame, Channel channel) {
+    if (const Image* const image = findChannel(frame, channel)) return *image;
     throw std::runtime_error(
-        fmt::format("{} has no channel {}, which an explanation needs", frame.name, debugMode(mode).name));
+        fmt::format("{} has no channel {}, which an explanation needs", frame.name, debugMode(channel).name));
 }
 
 glm::dvec3 colorAt(const Image& image, std::size_t pixel) {

@@ -17,7 +17,7 @@
 namespace diptych {
 
 // Throws std::runtime_error, one line, if the Frame lacks it.
-const Image& channelOf(const Frame& frame, Channel mode);
+const Image& channelOf(const Frame& frame, Channel channel);
 
 // The first three components of a pixel.
 glm::dvec3 colorAt(const Image& image, std::size_t pixel);

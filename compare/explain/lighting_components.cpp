@@ -177,10 +177,11 @@ LightingComponents::LightingComponents(const Frame& baseline, const Frame& test,
         change.at(t) = differenceOf(baselines.at(t), residual_.at(t));
     // Splits off direct light that changes with the visibility of lights, or where other lights are
     // evaluated.
-    const auto contribution = [&](std::string name, std::string description, Channel mode, LightChange how,
+    const auto contribution = [&](std::string name, std::string description, Channel channel, LightChange how,
                                   const auto& part) {
         add({std::move(name), std::move(description),
-             takeDirectLight(change, terms[1], findChannel(baseline, mode), findChannel(test, mode), part),
+             takeDirectLight(change, terms[1], findChannel(baseline, channel), findChannel(test, channel),
+                             part),
              how});
     };
     contribution("shadow_visibility", "direct light that changes with the visibility of the sun",

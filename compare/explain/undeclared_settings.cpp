@@ -158,7 +158,9 @@ private:
     TermFactors factorsOfTerms() {
         if (!sides_.haveTerms()) return {};
         const ChannelTerms terms = lighting_.under(said_).terms(allChannelsOf(1));
-        const auto theirs = [&](Channel mode) -> const Image& { return channelOf(sides_.frame(1), mode); };
+        const auto theirs = [&](Channel channel) -> const Image& {
+            return channelOf(sides_.frame(1), channel);
+        };
         const Image& ids = theirs(Channel::material_id);
         Image depth = theirs(Channel::transmittance), our_depth = terms.transmittance;
         bool hazy = false, dark = true;

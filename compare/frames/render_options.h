@@ -57,13 +57,14 @@ struct RenderOptions {
 };
 
 // Whether a channel of `channels` is left out: it is 0 in scenes without its layer. `layers`: of the scene.
-inline bool isOmitted(const RenderOptions& options, gpu::uint layers, Channel mode) {
-    const bool asked = options.named && std::ranges::count(options.requested, mode) > 0;
-    return !mayShow(mode, layers) && !asked;
+inline bool isOmitted(const RenderOptions& options, gpu::uint layers, Channel channel) {
+    const bool asked = options.named && std::ranges::count(options.requested, channel) > 0;
+    return !mayShow(channel, layers) && !asked;
 }
 inline RenderOptions withoutAbsentLayers(RenderOptions options, gpu::uint layers) {
-    std::erase_if(options.channels,
-                  [requested = options, layers](Channel mode) { return isOmitted(requested, layers, mode); });
+    std::erase_if(options.channels, [requested = options, layers](Channel channel) {
+        return isOmitted(requested, layers, channel);
+    });
     return options;
 }
 

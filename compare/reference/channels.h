@@ -17,10 +17,10 @@ namespace diptych::reference {
 
 // The part of ReferenceImage::rounding that belongs to a channel, from the four components of a pixel, W/(sr
 // m^2); 0 if the channel is no light.
-double roundingOf(Channel mode, const float* rounding);
+double roundingOf(Channel channel, const float* rounding);
 
 // The components of a channel (shared/contract/debug_mode.h).
-glm::dvec3 channelValue(Channel mode, const Pixel& pixel);
+glm::dvec3 channelValue(Channel channel, const Pixel& pixel);
 
 // Decodes surfaces from a path's captured channels. Without the channels of a layer (layerOf() of
 // shared/frame/debug_modes.h) no surface has it.
@@ -35,8 +35,8 @@ public:
     Surface surface(std::size_t pixel, const PixelRays& rays, int material) const;
 
 private:
-    bool isCaptured(Channel mode) const { return channels_.contains(mode); }
-    glm::dvec3 value(Channel mode, std::size_t pixel) const;
+    bool isCaptured(Channel channel) const { return channels_.contains(channel); }
+    glm::dvec3 value(Channel channel, std::size_t pixel) const;
 
     const std::map<Channel, Image>& channels_;
     const std::vector<Material>& materials_;

@@ -128,9 +128,9 @@ reference::Request requestOf(const Scene& scene, const SceneView& view, const Se
 void takeImage(reference::ReferenceImage& rendered, Frame& frame) {
     frame.counters.nonfinite_pixels = nonfinitePixels(rendered.channels.at(Channel::lit));
     frame.channels = std::move(rendered.channels);
-    for (auto& [mode, image] : frame.channels)
+    for (auto& [channel, image] : frame.channels)
         if (auto repaired = replaceNonfinite(image); !repaired.empty())
-            frame.repaired[mode] = std::move(repaired);
+            frame.repaired[channel] = std::move(repaired);
     frame.through_gbuffer = std::move(rendered.decoded);
     frame.rounding = std::move(rendered.rounding);
     frame.shadow_edge = std::move(rendered.shadow_edge);
@@ -184,8 +184,9 @@ Frame drawReferenceFrame(const Scene& scene, const SceneView& view, const Settin
     Frame frame = describedFrame(scene, view, settings);
     frame.requested = options.requested;
     takeImage(rendered, frame);
-    const auto isUnwanted = [&](Channel mode) {
-        return std::ranges::count(options.channels, mode) == 0 || isOmitted(options, view.needs.layers, mode);
+    const auto isUnwanted = [&](Channel channel) {
+        return std::ranges::count(options.channels, channel) == 0 ||
+               isOmitted(options, view.needs.layers, channel);
     };
     std::erase_if(frame.channels, [&](const auto& entry) {
         return isUnwanted(entry.first) && entry.first != Channel::material_id;

@@ -33,9 +33,9 @@ unsigned bitsOf(const ChannelCode& stored, GBufferEncoding packed) {
 }
 
 // Whether a packed G-buffer of the scene has the channel in fewer bits than float32.
-bool isQuantised(Channel mode, GBufferEncoding encoding, const Requirements& needs) {
+bool isQuantised(Channel channel, GBufferEncoding encoding, const Requirements& needs) {
     const GBufferLayout layout = gbufferLayout(encoding, needs);
-    switch (sourceOf(mode).part) {
+    switch (sourceOf(channel).part) {
         case MaterialPart::none:
             return true;
         case MaterialPart::emission:
@@ -45,7 +45,7 @@ bool isQuantised(Channel mode, GBufferEncoding encoding, const Requirements& nee
         case MaterialPart::dielectric:
             return needs.dielectric_specular;
         default:
-            return (needs.surface_layers & layerOf(mode)) != 0;
+            return (needs.surface_layers & layerOf(channel)) != 0;
     }
 }
 
@@ -132,10 +132,10 @@ double StoredField::largestBound() const {
     return 0;
 }
 
-std::optional<StoredField> storedField(Channel mode, GBufferEncoding encoding, const Requirements& needs) {
+std::optional<StoredField> storedField(Channel channel, GBufferEncoding encoding, const Requirements& needs) {
     if (encoding == GBufferEncoding::full) return {};
-    const ChannelCode& stored = debugMode(mode).stored;
-    if (stored.code == FieldCode::exact || !isQuantised(mode, encoding, needs)) return {};
+    const ChannelCode& stored = debugMode(channel).stored;
+    if (stored.code == FieldCode::exact || !isQuantised(channel, encoding, needs)) return {};
     StoredField field{stored.code, bitsOf(stored, encoding)};
     if (field.code == FieldCode::line)
         field.normal_bits = bitsOf(debugMode(Channel::normals).stored, encoding);

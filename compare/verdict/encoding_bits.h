@@ -53,7 +53,7 @@ struct StoredField {
 };
 
 // A channel's field in a G-buffer of this encoding; empty if it is stored exactly or not at all.
-std::optional<StoredField> storedField(Channel mode, GBufferEncoding encoding, const Requirements& needs);
+std::optional<StoredField> storedField(Channel channel, GBufferEncoding encoding, const Requirements& needs);
 
 // The channels of all fields of Surface that lighting reads: lit is a function of them and of inputs that
 // both paths share.

@@ -40,12 +40,13 @@ RenderOptions evaluatedOptions(RenderOptions render, std::span<const Settings> s
     const bool shadows =
         std::ranges::any_of(settings, [](const Settings& of) { return of.shadows != Shadows::off; });
     if (std::ranges::any_of(render.channels, isLit) && std::ranges::any_of(settings, isPacked))
-        std::ranges::copy_if(lightingFields(), std::back_inserter(helpers),
-                             [&](Channel mode) { return shadows || mode != Channel::geometric_normal; });
+        std::ranges::copy_if(lightingFields(), std::back_inserter(helpers), [&](Channel channel) {
+            return shadows || channel != Channel::geometric_normal;
+        });
     render.every_sample.assign(lightingFields().begin(), lightingFields().end());
     if (shadows) helpers.insert(helpers.end(), {Channel::depth, Channel::cascade, Channel::page_residency});
-    for (const Channel mode : helpers)
-        if (std::ranges::count(render.channels, mode) == 0) render.channels.push_back(mode);
+    for (const Channel channel : helpers)
+        if (std::ranges::count(render.channels, channel) == 0) render.channels.push_back(channel);
     return render;
 }
 
@@ -57,11 +58,11 @@ namespace {
 void explainAsNow(Frame& baseline, const std::vector<Frame>& frames, bool cpu) {
     if (!shadesFragments(baseline.settings.path)) return;
     for (const Frame& frame : frames)
-        for (const auto& [mode, through] : frame.through_gbuffer) {
-            const Image *then = findChannel(baseline, mode), *now = findChannel(frame, mode);
+        for (const auto& [channel, through] : frame.through_gbuffer) {
+            const Image *then = findChannel(baseline, channel), *now = findChannel(frame, channel);
             if (then && now && then->width == now->width && then->height == now->height &&
                 unequalPixels(*then, *now, cpu ? 0 : gpuUlps) == 0)
-                baseline.through_gbuffer[mode] = through;
+                baseline.through_gbuffer[channel] = through;
         }
 }
 
@@ -180,21 +181,22 @@ void showOurBackground(Frame& external, const Frame& ours) {
     if (external.settings.size != ours.settings.size) return;
     const Coverage covered = coverage(ours, ours);
     if (!covered.known) return;
-    for (const auto& [mode, image] : external.channels) external.requested.push_back(mode);
+    for (const auto& [channel, image] : external.channels) external.requested.push_back(channel);
     std::size_t shown = 0;  // pixels of lit
-    for (auto& [mode, image] : external.channels) {
-        const Image* const other = findChannel(ours, mode);
+    for (auto& [channel, image] : external.channels) {
+        const Image* const other = findChannel(ours, channel);
         if (!other || other->pixels() != image.pixels() || other->components != image.components) continue;
         for (std::size_t i = 0; i < image.pixels(); ++i) {
             if (covered.covered[i]) continue;
             float* const here = image.pixel(i);
-            if (mode == Channel::lit)
+            if (channel == Channel::lit)
                 shown += std::any_of(here, here + image.components, [](float v) { return v != 0; });
             std::copy_n(other->pixel(i), image.components, here);
         }
     }
-    for (const Channel mode : {Channel::material_id, Channel::depth})
-        if (const Image* const found = findChannel(ours, mode)) external.channels.try_emplace(mode, *found);
+    for (const Channel channel : {Channel::material_id, Channel::depth})
+        if (const Image* const found = findChannel(ours, channel))
+            external.channels.try_emplace(channel, *found);
     if (shown > 0)
         external.notes.push_back(
             fmt::format("{} is not black at {} where {} shows no surface: a background or shifted edges; "

@@ -69,8 +69,8 @@ std::uint64_t mostOf(double fraction, std::uint64_t edges) {
 
 using Planes = std::array<const Image*, 2>;  // of baseline and test; null where missing
 
-Planes planesOf(const FramePair& pair, Channel mode) {
-    return {findChannel(pair.baseline, mode), findChannel(pair.test, mode)};
+Planes planesOf(const FramePair& pair, Channel channel) {
+    return {findChannel(pair.baseline, channel), findChannel(pair.test, channel)};
 }
 
 // Tests whether both devices show the same surface and light at a pixel.

@@ -7,18 +7,18 @@
 
 namespace diptych {
 
-void letGo(const Frame& frame, Channel mode) {
+void letGo(const Frame& frame, Channel channel) {
     for (const auto* images : {&frame.channels, &frame.through_gbuffer})
-        if (const auto found = images->find(mode); found != images->end()) letGo(found->second.data);
-    if (const auto found = frame.further_samples.find(mode); found != frame.further_samples.end())
+        if (const auto found = images->find(channel); found != images->end()) letGo(found->second.data);
+    if (const auto found = frame.further_samples.find(channel); found != frame.further_samples.end())
         for (const Image& image : found->second) letGo(image.data);
-    if (mode == Channel::lit)
+    if (channel == Channel::lit)
         for (const Image* image : {&frame.unblended, &frame.unblended_through_gbuffer})
             if (!image->empty()) letGo(image->data);
 }
 
 void letGo(const Frame& frame) {
-    for (const auto& [mode, image] : frame.channels) letGo(frame, mode);
+    for (const auto& [channel, image] : frame.channels) letGo(frame, channel);
 }
 
 bool isReferenceFrame(const Frame& frame) {

@@ -116,8 +116,8 @@ struct Frame {
     // Requested channels, which are compared and written; other `channels` are helpers (exposure,
     // background). Empty: all.
     std::vector<Channel> requested;
-    bool isRequested(Channel mode) const {
-        return requested.empty() || std::ranges::count(requested, mode) > 0;
+    bool isRequested(Channel channel) const {
+        return requested.empty() || std::ranges::count(requested, channel) > 0;
     }
     // litModes shaded from the surfaces that deferred decodes from a G-buffer of settings.gbuffer: by
     // forward+, which must equal deferred, and by the reference in mode surface. Else empty.
@@ -178,16 +178,16 @@ struct Frame {
 };
 
 // nullptr: no image of the channel.
-inline const Image* findChannel(const std::map<Channel, Image>& images, Channel mode) {
-    const auto found = images.find(mode);
+inline const Image* findChannel(const std::map<Channel, Image>& images, Channel channel) {
+    const auto found = images.find(channel);
     return found == images.end() ? nullptr : &found->second;
 }
-inline const Image* findChannel(const Frame& frame, Channel mode) {
-    return findChannel(frame.channels, mode);
+inline const Image* findChannel(const Frame& frame, Channel channel) {
+    return findChannel(frame.channels, channel);
 }
 
 // letGo() for all images of one channel, or of every channel.
-void letGo(const Frame& frame, Channel mode);
+void letGo(const Frame& frame, Channel channel);
 void letGo(const Frame& frame);
 
 // Whether it is a Frame of this program's reference, rendered now or read from a file that this program

@@ -52,9 +52,9 @@ TEST(BlendedAlone, HasNoGBufferAndTheSameImage) {
                                                     Channel::depth, Channel::geometric_normal};
             options.runs = 0;
             const std::vector<Frame> frames = drawAll(scene, {settings, forward}, options);
-            for (const Channel mode : options.channels)
-                EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
-                    << text << " " << debugMode(mode).name << (wall ? ", with a wall" : "");
+            for (const Channel channel : options.channels)
+                EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
+                    << text << " " << debugMode(channel).name << (wall ? ", with a wall" : "");
             const Image& image = frames[0].channels.at(Channel::lit);
             EXPECT_GT(*image.pixel(image.pixels() / 2), 0) << "the pane is seen";
             EXPECT_EQ(frames[0].counters.unreproduced_pixels, 0u);

@@ -62,9 +62,9 @@ TEST_P(ClipmapPaths, SeeTheSame) {
         // With smaller encodings the decoded surfaces differ, and so does lit.
         if (settings.gbuffer == GBufferEncoding::full) channels.push_back(Channel::lit);
         const std::vector<Frame> frames = bothPaths(renderer, settings, channels);
-        for (const Channel mode : channels)
-            EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
-                << debugMode(mode).name << ", pool " << settings.clipmap_pages;
+        for (const Channel channel : channels)
+            EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
+                << debugMode(channel).name << ", pool " << settings.clipmap_pages;
         for (const Frame& frame : frames) expectCounted(frame, settings.clipmap_pages);
         return frames[0];
     };
@@ -218,9 +218,9 @@ TEST(ClipmapCached, EqualsRedrawn) {
                                      {Channel::lit, Channel::shadow_visibility, Channel::page_residency}),
                     redrawn = drawnWith(anew, settings,
                                         {Channel::lit, Channel::shadow_visibility, Channel::page_residency});
-        for (const Channel mode : {Channel::lit, Channel::shadow_visibility, Channel::page_residency})
-            EXPECT_EQ(differingPixels(kept.channels.at(mode), redrawn.channels.at(mode)), 0u)
-                << where << " " << debugMode(mode).name;
+        for (const Channel channel : {Channel::lit, Channel::shadow_visibility, Channel::page_residency})
+            EXPECT_EQ(differingPixels(kept.channels.at(channel), redrawn.channels.at(channel)), 0u)
+                << where << " " << debugMode(channel).name;
         EXPECT_LT(kept.counters.shadow_pages.drawn, redrawn.counters.shadow_pages.drawn) << where;
     };
     const glm::dvec3 from(4, 2, 4), target(0, 0.5, 0);

@@ -67,9 +67,9 @@ TEST(EnvironmentLight, BasesWithALightmapTakeNothingOfIt) {
     const std::vector<Frame> full = lightmaps.paths(GBufferEncoding::full);
     check(full, " full ");
     EXPECT_EQ(mapped.size(), 8u);
-    for (const Channel mode : shown)
-        EXPECT_EQ(differingPixels(full[0].channels.at(mode), full[1].channels.at(mode)), 0u)
-            << debugMode(mode).name;
+    for (const Channel channel : shown)
+        EXPECT_EQ(differingPixels(full[0].channels.at(channel), full[1].channels.at(channel)), 0u)
+            << debugMode(channel).name;
     // The floor's lightmap exceeds the range of 9.9.9.e5.
     lightmaps.scene.materials[0].lightmap_intensity = 1e4f;
     check(lightmaps.paths(GBufferEncoding::standard), " wide ");
@@ -81,16 +81,17 @@ TEST(EnvironmentLight, WithLightmapsIsTheReferences) {
     const LightmapsUnderSky lightmaps;
     const Frame truth = lightmaps.reference();
     for (const Frame& frame : lightmaps.paths(GBufferEncoding::full))
-        for (const Channel mode : {Channel::lit_diffuse, Channel::lit_specular, Channel::lit_environment}) {
+        for (const Channel channel :
+             {Channel::lit_diffuse, Channel::lit_specular, Channel::lit_environment}) {
             double sum = 0, off = 0;
-            for (std::size_t i = 0; i < truth.channels.at(mode).data.size(); ++i) {
-                const double a = frame.channels.at(mode).data[i], b = truth.channels.at(mode).data[i];
-                EXPECT_NEAR(a, b, 0.03 * b + 1e-6) << frame.name << debugMode(mode).name << i;
+            for (std::size_t i = 0; i < truth.channels.at(channel).data.size(); ++i) {
+                const double a = frame.channels.at(channel).data[i], b = truth.channels.at(channel).data[i];
+                EXPECT_NEAR(a, b, 0.03 * b + 1e-6) << frame.name << debugMode(channel).name << i;
                 sum += b;
                 off += a - b;
             }
-            EXPECT_GT(sum, 1) << debugMode(mode).name;
-            EXPECT_LT(std::abs(off), 1e-3 * sum) << frame.name << debugMode(mode).name;
+            EXPECT_GT(sum, 1) << debugMode(channel).name;
+            EXPECT_LT(std::abs(off), 1e-3 * sum) << frame.name << debugMode(channel).name;
         }
 }
 

@@ -175,9 +175,9 @@ TEST(EnvironmentSunLight, BothPathsAreEqualBitForBit) {
     settings.size = {96, 54};
     settings.env_rotation = 33;
     const std::vector<Frame> frames = bothPaths(scene, settings, sunChannels);
-    for (const Channel mode : sunChannels)
-        EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
-            << debugMode(mode).name;
+    for (const Channel channel : sunChannels)
+        EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
+            << debugMode(channel).name;
 }
 
 }  // namespace

@@ -272,9 +272,9 @@ TEST(EnvironmentLight, BothPathsAreEqualBitForBit) {
         settings.ibl = ibl;
         settings.ibl_diffuse = ibl == Ibl::split ? IblDiffuse::sh : IblDiffuse::map;
         const std::vector<Frame> frames = bothPaths(renderer, settings, shown);
-        for (const Channel mode : shown)
-            EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
-                << nameOf(ibl) << " " << debugMode(mode).name;
+        for (const Channel channel : shown)
+            EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
+                << nameOf(ibl) << " " << debugMode(channel).name;
         for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << frame.name;
     }
 }
@@ -302,9 +302,9 @@ TEST_P(AssetEnvironment, IsEqualBitForBit) {
     for (const auto& [transparency, name] : enumNames<Transparency>()) {
         settings.transparency = transparency;
         const std::vector<Frame> frames = bothPaths(renderer, settings, shown);
-        for (const Channel mode : shown)
-            EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
-                << name << ": " << debugMode(mode).name;
+        for (const Channel channel : shown)
+            EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
+                << name << ": " << debugMode(channel).name;
         for (const Frame& frame : frames) {
             EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << name << ": " << frame.name;
             EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << name << ": " << frame.name;

@@ -220,9 +220,9 @@ void expectSound(const std::vector<Frame>& frames) {
         EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name;
         EXPECT_TRUE(frame.repaired.empty()) << frame.name;
         EXPECT_EQ(coveredPixels(frame), frame.channels.at(Channel::lit).pixels()) << frame.name;
-        for (const Channel mode : {normals, Channel::geometric_normal})
-            for (const float value : frame.channels.at(mode).data)
-                ASSERT_TRUE(std::isfinite(value)) << frame.name << " " << debugMode(mode).name;
+        for (const Channel channel : {normals, Channel::geometric_normal})
+            for (const float value : frame.channels.at(channel).data)
+                ASSERT_TRUE(std::isfinite(value)) << frame.name << " " << debugMode(channel).name;
     }
 }
 

@@ -45,12 +45,12 @@ Settings onePixel(float ambient = 0) {
     return settings;
 }
 
-void expectLight(const Frame& frame, Channel mode, const glm::dvec3& expected, double tolerance,
+void expectLight(const Frame& frame, Channel channel, const glm::dvec3& expected, double tolerance,
                  const std::string& where) {
-    const glm::vec3 got = colorAt(frame, mode, 0, 0);
+    const glm::vec3 got = colorAt(frame, channel, 0, 0);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(double{got[c]}, expected[c], tolerance)
-            << frame.name << " " << debugMode(mode).name << ", " << where;
+            << frame.name << " " << debugMode(channel).name << ", " << where;
 }
 
 // ---- sheen -------------------------------------------------------------------------------------------
@@ -82,8 +82,8 @@ TEST(LayerValues, ASheenIsItsFormula) {
                                      base = bothPaths(tiltedSquare(bare, degrees, slanted), onePixel(3));
             const std::string where = fmt::format("roughness {}, {} degrees", roughness, degrees);
             for (std::size_t path = 0; path < 2; ++path) {
-                const auto below = [&](Channel mode) {
-                    return left * glm::dvec3(colorAt(base[path], mode, 0, 0));
+                const auto below = [&](Channel channel) {
+                    return left * glm::dvec3(colorAt(base[path], channel, 0, 0));
                 };
                 expectLight(dark[path], Channel::lit_sheen, color * direct, 1e-4 * direct + 1e-9, where);
                 expectLight(bright[path], Channel::lit_sheen, color * (direct + 3 * all), 4e-4, where);
@@ -186,8 +186,8 @@ TEST(LayerValues, AFilmWithoutThicknessIsTheBase) {
     const std::vector<Frame> with = bothPaths(tiltedSquare(thin, 40, light), onePixel(1)),
                              without = bothPaths(tiltedSquare(bare, 40, light), onePixel(1));
     for (std::size_t path = 0; path < 2; ++path)
-        for (const Channel mode : {Channel::lit, Channel::lit_specular, Channel::lit_ambient})
-            expectLight(with[path], mode, glm::dvec3(colorAt(without[path], mode, 0, 0)), 1e-4,
+        for (const Channel channel : {Channel::lit, Channel::lit_specular, Channel::lit_ambient})
+            expectLight(with[path], channel, glm::dvec3(colorAt(without[path], channel, 0, 0)), 1e-4,
                         "no thickness");
 }
 

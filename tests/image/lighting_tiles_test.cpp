@@ -80,9 +80,9 @@ std::vector<TilePixels> pixelsOfTiles(const Scene& scene, const Settings& settin
     Settings forward = settings;
     forward.path = Path::forward_plus;
     const Frame frame = renderer.draw(forward, options);
-    const auto anySample = [&](Channel mode, std::size_t i, auto&& is) {
-        bool any = is(frame.channels.at(mode).data[i]);
-        if (const auto found = frame.further_samples.find(mode); found != frame.further_samples.end())
+    const auto anySample = [&](Channel channel, std::size_t i, auto&& is) {
+        bool any = is(frame.channels.at(channel).data[i]);
+        if (const auto found = frame.further_samples.find(channel); found != frame.further_samples.end())
             for (const Image& image : found->second) any = any || is(image.data[i]);
         return any;
     };

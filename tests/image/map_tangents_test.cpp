@@ -53,13 +53,13 @@ TEST(MapTangents, AFlatNormalMapLeavesTheLayersTheirTangents) {
                 base.normal_texture.v = {-s * across, c, 0};
                 const std::vector<Frame> frames = drawMaps(mapped, 20);
                 for (std::size_t i = 0; i < frames.size(); ++i)
-                    for (const Channel mode : {Channel::clearcoat_normal, Channel::anisotropy_direction}) {
-                        const glm::vec3 seen = colorAt(frames[i], mode, 1, 2),
-                                        own = colorAt(expected[i], mode, 1, 2);
+                    for (const Channel channel : {Channel::clearcoat_normal, Channel::anisotropy_direction}) {
+                        const glm::vec3 seen = colorAt(frames[i], channel, 1, 2),
+                                        own = colorAt(expected[i], channel, 1, 2);
                         EXPECT_NEAR(glm::length(own), 1, 1e-5) << frames[i].name;
                         EXPECT_NEAR(std::min(glm::distance(seen, own), glm::distance(seen, -own)), 0, 3e-6)
                             << frames[i].name << " " << set << " " << degrees << " " << across << " "
-                            << debugMode(mode).name;
+                            << debugMode(channel).name;
                     }
             }
     }

@@ -25,11 +25,11 @@ constexpr unsigned slotBit(gpu::uint slot) {
 }
 
 // Bit mask of the slots that may affect a channel of a cell.
-unsigned slotsOf(Channel mode, const Cell& cell) {
+unsigned slotsOf(Channel channel, const Cell& cell) {
     constexpr unsigned base = slotBit(gpu::SLOT_base_color);
     const unsigned glossy = cell.specular_glossiness ? slotBit(gpu::SLOT_specular_color) : 0,
                    rough = slotBit(gpu::SLOT_metallic_roughness) | glossy;
-    switch (mode) {
+    switch (channel) {
         case Channel::albedo:
             return base | glossy;
         case Channel::material_id:
@@ -103,9 +103,9 @@ double largestIn(const std::vector<double>& values) {
 // a decoded value and each product round by at most 2^-24: 2^-21 in all, relative. A normal's texel errs
 // by 2^-24, is doubled, scaled by up to 1.6 and mixed with unit vectors: 4e-7, and as much again for its
 // length.
-double roundingOf(Channel mode, const std::vector<double>& expected) {
+double roundingOf(Channel channel, const std::vector<double>& expected) {
     const double largest = largestIn(expected);
-    switch (mode) {
+    switch (channel) {
         case Channel::material_id:
             return 0;
         case Channel::normals:
@@ -128,7 +128,7 @@ double roundingOf(Channel mode, const std::vector<double>& expected) {
 constexpr double cornerGrid = 1.0 / 128;
 
 // Effect of that: on texture coordinates anywhere, on everything else if the wall is tilted.
-double movedBy(Channel mode, const std::vector<Cell>& cells, const CellCamera& camera, int x, int y) {
+double movedBy(Channel channel, const std::vector<Cell>& cells, const CellCamera& camera, int x, int y) {
     const CellPosition here = cellPosition(cells, camera, {x + 0.5, y + 0.5});
     double deeper = 0, aside = 0;
     for (const glm::dvec2 side : {glm::dvec2(1, 0), glm::dvec2(0, 1)}) {
@@ -137,7 +137,7 @@ double movedBy(Channel mode, const std::vector<Cell>& cells, const CellCamera& c
         aside = std::max({aside, std::abs(next.position.x - here.position.x),
                           std::abs(next.position.y - here.position.y)});
     }
-    switch (mode) {
+    switch (channel) {
         case Channel::depth:
         case Channel::position:
             return deeper * cornerGrid;
@@ -173,8 +173,8 @@ std::string placeName(const std::vector<Cell>& cells, const CellPosition& place,
 // Ambient light adds the error of the paths' table of its integral (tests/image/ambient_test.cpp).
 constexpr double litRounding = 1e-5, ambientTable = 6e-5;
 
-std::vector<double> valuesAt(const Frame& frame, Channel mode, int x, int y) {
-    const Image& image = frame.channels.at(mode);
+std::vector<double> valuesAt(const Frame& frame, Channel channel, int x, int y) {
+    const Image& image = frame.channels.at(channel);
     const float* p = image.pixel(static_cast<std::size_t>(y * image.width + x));
     return {p, p + image.components};
 }
@@ -183,7 +183,7 @@ std::vector<double> valuesAt(const Frame& frame, Channel mode, int x, int y) {
 // with the same texels. A surface at another depth is off the wall's plane, which changes the lamp's light
 // by up to 2/3 per metre at 3 m distance. Nothing if there is no such neighbour in one direction.
 std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamera& camera,
-                                 const Frame& reference, Channel mode, const EvaluatedPixel& pixel, int x,
+                                 const Frame& reference, Channel channel, const EvaluatedPixel& pixel, int x,
                                  int y) {
     if (camera.tilt == glm::dvec2(0)) return 0.0;
     const Cell& cell = cells[static_cast<std::size_t>(pixel.place.cell)];
@@ -195,14 +195,14 @@ std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamer
             if (texelAt(cell, slot, place.at) != texelAt(cell, slot, pixel.place.at)) return false;
         return true;
     };
-    const std::vector<double> here = valuesAt(reference, mode, x, y);
+    const std::vector<double> here = valuesAt(reference, channel, x, y);
     double moved = largestIn(here) * movedBy(Channel::depth, cells, camera, x, y) * 2 / 3;
     for (const glm::ivec2 along : {glm::ivec2(1, 0), glm::ivec2(0, 1)}) {
         const glm::ivec2 next(glm::ivec2(x, y) + along), last(glm::ivec2(x, y) - along);
         if (!alike(next) && !alike(last)) return {};
         std::vector<double> differences = here;
-        const std::vector<double> beside = alike(next) ? valuesAt(reference, mode, next.x, next.y)
-                                                       : valuesAt(reference, mode, last.x, last.y);
+        const std::vector<double> beside = alike(next) ? valuesAt(reference, channel, next.x, next.y)
+                                                       : valuesAt(reference, channel, last.x, last.y);
         for (std::size_t c = 0; c < here.size(); ++c) differences[c] -= beside[c];
         moved += largestIn(differences) * cornerGrid;
     }
@@ -211,14 +211,14 @@ std::optional<double> litMovedBy(const std::vector<Cell>& cells, const CellCamer
 
 // Tolerance of a path's channel against the reference; nothing if it is not checked.
 std::optional<double> allowedBeside(const std::vector<Cell>& cells, const CellCamera& camera,
-                                    const Frame& reference, Channel mode, const EvaluatedPixel& pixel, int x,
-                                    int y) {
-    const std::vector<double> expected = valuesAt(reference, mode, x, y);
-    if (!isLit(mode)) return roundingOf(mode, expected) + movedBy(mode, cells, camera, x, y);
-    const auto moved = litMovedBy(cells, camera, reference, mode, pixel, x, y);
+                                    const Frame& reference, Channel channel, const EvaluatedPixel& pixel,
+                                    int x, int y) {
+    const std::vector<double> expected = valuesAt(reference, channel, x, y);
+    if (!isLit(channel)) return roundingOf(channel, expected) + movedBy(channel, cells, camera, x, y);
+    const auto moved = litMovedBy(cells, camera, reference, channel, pixel, x, y);
     if (!moved) return {};
     const double ambient = largestIn(valuesAt(reference, Channel::lit_ambient, x, y));
-    const bool has = mode == Channel::lit || mode == Channel::lit_ambient;
+    const bool has = channel == Channel::lit || channel == Channel::lit_ambient;
     return litRounding * largestIn(expected) + (has ? ambientTable * ambient : 0) + *moved;
 }
 
@@ -230,9 +230,10 @@ bool anyWrong(const ChannelChecks& judgement) {
 
 std::string describe(const ChannelChecks& judgement) {
     std::string text;
-    for (const auto& [mode, evaluated] : judgement)
-        text += fmt::format("{}: {} of {} wrong, worst {:.3g} of what is allowed, {}\n", debugMode(mode).name,
-                            evaluated.wrong, evaluated.values, evaluated.worst, evaluated.worst_at);
+    for (const auto& [channel, evaluated] : judgement)
+        text +=
+            fmt::format("{}: {} of {} wrong, worst {:.3g} of what is allowed, {}\n", debugMode(channel).name,
+                        evaluated.wrong, evaluated.values, evaluated.worst, evaluated.worst_at);
     return text;
 }
 
@@ -253,10 +254,11 @@ ChannelChecks againstClosedForm(const Frame& frame, const std::vector<Cell>& cel
                          frame.channels.at(Channel::material_id).pixel(at(x, y)), {-1}, 0, where);
                 continue;
             }
-            for (const auto& [mode, expected] : *values) {
-                if (!frame.channels.contains(mode) || !pixel->shows(slotsOf(mode, cell))) continue;
-                const double allowed = roundingOf(mode, expected) + movedBy(mode, cells, camera, x, y);
-                evaluate(judgement[mode], frame.channels.at(mode).pixel(at(x, y)), expected, allowed, where);
+            for (const auto& [channel, expected] : *values) {
+                if (!frame.channels.contains(channel) || !pixel->shows(slotsOf(channel, cell))) continue;
+                const double allowed = roundingOf(channel, expected) + movedBy(channel, cells, camera, x, y);
+                evaluate(judgement[channel], frame.channels.at(channel).pixel(at(x, y)), expected, allowed,
+                         where);
             }
         }
     return judgement;
@@ -272,12 +274,12 @@ ChannelChecks againstReference(const Frame& frame, const Frame& reference, const
             if (!pixel) continue;
             const Cell& cell = cells[static_cast<std::size_t>(pixel->place.cell)];
             const std::string where = placeName(cells, pixel->place, x, y);
-            for (const auto& [mode, image] : frame.channels) {
-                if (!reference.channels.contains(mode) || !pixel->shows(slotsOf(mode, cell))) continue;
-                const auto allowed = allowedBeside(cells, camera, reference, mode, *pixel, x, y);
+            for (const auto& [channel, image] : frame.channels) {
+                if (!reference.channels.contains(channel) || !pixel->shows(slotsOf(channel, cell))) continue;
+                const auto allowed = allowedBeside(cells, camera, reference, channel, *pixel, x, y);
                 if (!allowed) continue;
-                evaluate(judgement[mode], image.pixel(at(x, y)), valuesAt(reference, mode, x, y), *allowed,
-                         where);
+                evaluate(judgement[channel], image.pixel(at(x, y)), valuesAt(reference, channel, x, y),
+                         *allowed, where);
             }
         }
     return judgement;

@@ -308,17 +308,17 @@ TEST(Panes, LayersAreTheSameInLightBatches) {
     settings.assign = Assignment::every;
     settings.ambient = {0.1f, 0.2f, 0.3f};
     std::vector<Channel> light{Channel::light_count};
-    for (const Channel mode : litModes)
-        if (mode != Channel::lit_environment) light.push_back(mode);
+    for (const Channel channel : litModes)
+        if (channel != Channel::lit_environment) light.push_back(channel);
     const std::vector<Frame> whole = bothPaths(few, settings, light),
                              parts = bothPaths(many, settings, light);
     for (std::size_t path = 0; path < 2; ++path) {
         EXPECT_GT(*std::ranges::max_element(parts[path].channels.at(Channel::light_count).data),
                   static_cast<float>(max));
-        for (const auto& [mode, image] : whole[path].channels) {
-            if (mode == Channel::light_count) continue;
-            EXPECT_EQ(differingPixels(image, parts[path].channels.at(mode)), 0u)
-                << parts[path].name << " " << debugMode(mode).name;
+        for (const auto& [channel, image] : whole[path].channels) {
+            if (channel == Channel::light_count) continue;
+            EXPECT_EQ(differingPixels(image, parts[path].channels.at(channel)), 0u)
+                << parts[path].name << " " << debugMode(channel).name;
         }
     }
 }

@@ -177,8 +177,8 @@ TEST(ShadowWalk, StaticPointsKeepTheirVisibility) {
         const int moved = i % 4;
         for (int y = 0; last && y < size.height; ++y)
             for (int x = 0; x + moved < size.width; ++x) {
-                const auto at = [&](const Frame& f, Channel mode, int column) {
-                    return f.channels.at(mode).at(column, y);
+                const auto at = [&](const Frame& f, Channel channel, int column) {
+                    return f.channels.at(channel).at(column, y);
                 };
                 const float now = at(frame, Channel::cascade, x),
                             before = at(*last, Channel::cascade, x + moved);
@@ -223,8 +223,8 @@ TEST(ShadowSeams, AreNoWiderThanTexels) {
     for (int y = size.height - 1; y >= 0; --y) {
         std::optional<Row> row;
         for (int x = 1; x < size.width; ++x) {
-            const auto value = [&](Channel mode, int column, int c = 0) {
-                return double{frame.channels.at(mode).at(column, y, c)};
+            const auto value = [&](Channel channel, int column, int c = 0) {
+                return double{frame.channels.at(channel).at(column, y, c)};
             };
             if (value(Channel::material_id, x) != 0 || value(Channel::material_id, x - 1) != 0 ||
                 value(Channel::cascade, x) < 0)

@@ -31,9 +31,9 @@ void expectSame(Renderer& forNeeded, Renderer& forAll, Settings settings, const 
     const Frame needed = forNeeded.draw(settings, options);
     settings.shadow_casters = ShadowCasters::all;
     const Frame all = forAll.draw(settings, options);
-    for (const Channel mode : options.channels)
-        EXPECT_EQ(differingPixels(needed.channels.at(mode), all.channels.at(mode)), 0u)
-            << name << " " << debugMode(mode).name;
+    for (const Channel channel : options.channels)
+        EXPECT_EQ(differingPixels(needed.channels.at(channel), all.channels.at(channel)), 0u)
+            << name << " " << debugMode(channel).name;
 }
 // With separate renderers: clipmap pages are cached.
 void expectSame(const Scene& scene, const Settings& settings, const std::string& name) {

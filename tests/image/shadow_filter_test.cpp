@@ -84,8 +84,8 @@ TEST_P(ShadowFilters, MapsFitWhatTheImageShows) {
     const std::vector<Frame> frames =
         bothPaths(renderer, settings,
                   {Channel::shadow_visibility, Channel::cascade, Channel::depth, Channel::material_id});
-    for (const Channel mode : {Channel::shadow_visibility, Channel::cascade})
-        EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u);
+    for (const Channel channel : {Channel::shadow_visibility, Channel::cascade})
+        EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u);
     float near = std::numeric_limits<float>::infinity(), far = 0;
     for (std::size_t i = 0; i < frames[0].channels.at(Channel::material_id).pixels(); ++i) {
         if (*frames[0].channels.at(Channel::material_id).pixel(i) < 0) continue;
@@ -122,8 +122,8 @@ TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
                          {Channel::lit, Channel::shadow_visibility});
     };
     const Frame soft = by(Shadows::pcss), hard = by(Shadows::pcf);
-    for (const Channel mode : {Channel::lit, Channel::shadow_visibility})
-        EXPECT_EQ(differingPixels(soft.channels.at(mode), hard.channels.at(mode)), 0u);
+    for (const Channel channel : {Channel::lit, Channel::shadow_visibility})
+        EXPECT_EQ(differingPixels(soft.channels.at(channel), hard.channels.at(channel)), 0u);
     EXPECT_TRUE(std::ranges::any_of(soft.notes, [](const std::string& note) {
         return note.find("has no angular size") != std::string::npos;
     }));

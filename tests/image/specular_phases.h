@@ -87,8 +87,8 @@ struct Shimmer {
 
 class Flicker {
 public:
-    void add(const Frame& frame, Channel mode) {
-        const Image &light = frame.channels.at(mode), &id = frame.channels.at(Channel::material_id);
+    void add(const Frame& frame, Channel channel) {
+        const Image &light = frame.channels.at(channel), &id = frame.channels.at(Channel::material_id);
         if (sum_.empty()) {
             sum_.resize(light.data.size()), squares_.resize(light.data.size());
             id_ = id.data;

@@ -83,8 +83,8 @@ inline std::vector<Frame> draw(const Scene& scene, int pixels = 4) {
     return bothPaths(scene, settings);
 }
 
-inline glm::vec3 colorAt(const Frame& frame, Channel mode, int x, int y) {
-    const Image& image = frame.channels.at(mode);
+inline glm::vec3 colorAt(const Frame& frame, Channel channel, int x, int y) {
+    const Image& image = frame.channels.at(channel);
     glm::vec3 value(0);
     for (int c = 0; c < image.components; ++c) value[c] = image.at(x, y, c);
     return value;

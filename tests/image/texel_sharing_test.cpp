@@ -221,8 +221,8 @@ TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
         for (std::size_t i = 0; i < apart.size(); ++i) {
             double worst[2] = {}, sum[2] = {};
             for (const int k : {0, 1}) {
-                const Channel mode = k == 0 ? roughness : metallic;
-                const Image &a = apart[i].channels.at(mode), &b = together[i].channels.at(mode);
+                const Channel channel = k == 0 ? roughness : metallic;
+                const Image &a = apart[i].channels.at(channel), &b = together[i].channels.at(channel);
                 for (std::size_t p = 0; p < a.data.size(); ++p) {
                     const double off = std::abs(double{a.data[p]} - double{b.data[p]});
                     worst[k] = std::max(worst[k], off);
@@ -236,9 +236,10 @@ TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
             if (c.roughness > 0.1) {
                 EXPECT_GT(worst[0], 0.01) << "it was magnified";
             }
-            for (const Channel mode : {albedo, normals, emission, occlusion})
-                EXPECT_EQ(differingPixels(apart[i].channels.at(mode), together[i].channels.at(mode)), 0u)
-                    << debugMode(mode).name;
+            for (const Channel channel : {albedo, normals, emission, occlusion})
+                EXPECT_EQ(differingPixels(apart[i].channels.at(channel), together[i].channels.at(channel)),
+                          0u)
+                    << debugMode(channel).name;
         }
     }
 }

@@ -196,8 +196,8 @@ TEST(Textures, EndlessCoordinatesGiveNumbers) {
                 expectSameChannels(frames[0], frames[1]);
                 for (const Frame& frame : frames) {
                     EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name << scale << offset;
-                    for (const Channel mode : {albedo, normals})
-                        for (const float value : frame.channels.at(mode).data)
+                    for (const Channel channel : {albedo, normals})
+                        for (const float value : frame.channels.at(channel).data)
                             ASSERT_TRUE(value >= -1 && value <= 1) << frame.name << scale << offset;
                 }
             }

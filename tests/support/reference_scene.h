@@ -71,7 +71,7 @@ inline auto keptAt(const std::filesystem::path& stem, std::optional<Checkpoint>&
 struct Drawn {
     Pose pose;
     ReferenceImage image;
-    const Image& operator[](Channel mode) const { return image.channels.at(mode); }
+    const Image& operator[](Channel channel) const { return image.channels.at(channel); }
 };
 // `shadows`: of every light and of the environment. `keep`: stem of the checkpoint.
 inline Drawn drawn(const Scene& scene, const View& view, bool shadows = false, int samples = 1,

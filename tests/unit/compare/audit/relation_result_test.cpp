@@ -22,19 +22,19 @@ constexpr int relatedWidth = 16, relatedHeight = 8;
 Frame twoWalls() {
     Frame frame;
     frame.settings.size = {relatedWidth, relatedHeight};
-    for (const Channel mode : relatedChannels())
-        frame.channels[mode] = Image(relatedWidth, relatedHeight, debugMode(mode).width, 0.5f);
+    for (const Channel channel : relatedChannels())
+        frame.channels[channel] = Image(relatedWidth, relatedHeight, debugMode(channel).width, 0.5f);
     for (int y = 0; y < relatedHeight; ++y)
         for (int x = 0; x < relatedWidth; ++x) {
             const bool right = x >= relatedWidth / 2;
             frame.channels[Channel::material_id].at(x, y) = right ? 1.0f : 0.0f;
             frame.channels[Channel::depth].at(x, y) = right ? 3.0f : 2.0f;
-            for (const Channel mode : {Channel::normals, Channel::geometric_normal})
-                for (int c = 0; c < 3; ++c) frame.channels[mode].at(x, y, c) = c == 2 ? 1.0f : 0.0f;
+            for (const Channel channel : {Channel::normals, Channel::geometric_normal})
+                for (int c = 0; c < 3; ++c) frame.channels[channel].at(x, y, c) = c == 2 ? 1.0f : 0.0f;
         }
-    for (const Channel mode : {Channel::sheen_color, Channel::sheen_roughness, Channel::iridescence,
-                               Channel::iridescence_thickness})
-        std::ranges::fill(frame.channels.at(mode).data, 0.0f);
+    for (const Channel channel : {Channel::sheen_color, Channel::sheen_roughness, Channel::iridescence,
+                                  Channel::iridescence_thickness})
+        std::ranges::fill(frame.channels.at(channel).data, 0.0f);
     return frame;
 }
 
@@ -67,14 +67,14 @@ TEST(RelationResult, BitsAreTheSameOrNot) {
     const Frame original = twoWalls();
     EXPECT_TRUE(evaluate(original, original, toleranceFor(Equality::bits)).passes());
     EXPECT_EQ(evaluate(original, original, toleranceFor(Equality::bits)).worst(), nullptr);
-    for (const Channel mode : relatedChannels()) {
+    for (const Channel channel : relatedChannels()) {
         Frame changed = original;
-        float& value = changed.channels[mode].at(3, 2, debugMode(mode).width - 1);
+        float& value = changed.channels[channel].at(3, 2, debugMode(channel).width - 1);
         value = above(value);
         const FrameResult result = evaluate(original, changed, toleranceFor(Equality::bits));
-        EXPECT_FALSE(result.passes()) << debugMode(mode).name;
+        EXPECT_FALSE(result.passes()) << debugMode(channel).name;
         ASSERT_NE(result.worst(), nullptr);
-        EXPECT_EQ(result.worst()->mode, mode);
+        EXPECT_EQ(result.worst()->mode, channel);
         EXPECT_EQ(result.worst()->x, 3);
         EXPECT_EQ(result.worst()->y, 2);
         EXPECT_EQ(result.worst()->beyond, 1u);

@@ -24,8 +24,8 @@ TEST(ExplainSettings, ThoseInChannelsAreThere) {
 // The surface, the result, whose material each pixel is, and whether a lightmap lights it.
 TEST(ExplainSettings, ChannelsAreTheSurfacesAndWhatTheyMake) {
     std::set<Channel> expected(surfaceChannels().begin(), surfaceChannels().end());
-    for (const Channel mode : {Channel::lit, Channel::material_id, Channel::lightmapped})
-        EXPECT_TRUE(expected.insert(mode).second);
+    for (const Channel channel : {Channel::lit, Channel::material_id, Channel::lightmapped})
+        EXPECT_TRUE(expected.insert(channel).second);
     const std::vector<Channel> channels = explainedChannels();
     EXPECT_EQ(channels, std::vector<Channel>(expected.begin(), expected.end()));
 }

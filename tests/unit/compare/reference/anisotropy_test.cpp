@@ -204,8 +204,8 @@ Scene brushedFloor(const std::vector<std::uint8_t>& rgb) {
 }
 Surface brushedAt(const Scene& scene, const glm::dvec3& eye = {0, 0, 3}) {
     const Drawn d = drawn(scene, viewFrom(eye, {0, 0, 0}, 1, 1, 0.01));
-    const auto vector = [&](Channel mode) {
-        return glm::dvec3(d[mode].at(0, 0, 0), d[mode].at(0, 0, 1), d[mode].at(0, 0, 2));
+    const auto vector = [&](Channel channel) {
+        return glm::dvec3(d[channel].at(0, 0, 0), d[channel].at(0, 0, 1), d[channel].at(0, 0, 2));
     };
     Surface s;
     s.anisotropy = double{d[Channel::anisotropy].at(0, 0, 0)};

@@ -165,8 +165,8 @@ Scene litFromBelow(float weight) {
     scene.lights = {lightOf(LightKind::point, {0, 0, -2}, {0, 0, 1})};
     return scene;
 }
-glm::dvec3 aboveLeaf(const Scene& scene, Channel mode, bool shadows) {
-    return pixelOf(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), shadows)[mode]);
+glm::dvec3 aboveLeaf(const Scene& scene, Channel channel, bool shadows) {
+    return pixelOf(drawn(scene, viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01), shadows)[channel]);
 }
 
 TEST(ReferenceDiffuseTransmission, ShadowRaysStartOnTheLightsSide) {
@@ -204,10 +204,10 @@ TEST(ReferenceDiffuseTransmission, CapturedLeavesAreShadedAgain) {
     for (const bool shadows : {false, true}) {
         const Drawn traced = drawn(scene, view, shadows);
         const ReferenceImage again = shadedAgain(scene, view, traced, traced.image.channels, shadows);
-        for (const Channel mode : {Channel::lit, Channel::lit_transmission}) {
-            const double expected = double{traced[mode].at(0, 0, 0)};
+        for (const Channel channel : {Channel::lit, Channel::lit_transmission}) {
+            const double expected = double{traced[channel].at(0, 0, 0)};
             EXPECT_GT(expected, 0);
-            EXPECT_NEAR(double{again.channels.at(mode).at(0, 0, 0)}, expected, 1e-5 * expected);
+            EXPECT_NEAR(double{again.channels.at(channel).at(0, 0, 0)}, expected, 1e-5 * expected);
         }
     }
 }

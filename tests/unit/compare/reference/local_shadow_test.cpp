@@ -68,9 +68,9 @@ TEST(ReferenceLocalShadow, LightNeedsNoEdges) {
         const ReferenceImage with = seenAt(x, {0, 1}), without = seenAt(x, {0, 1}, false);
         EXPECT_EQ(without.channels.at(Channel::lit).data, with.channels.at(Channel::lit).data);
         EXPECT_TRUE(without.local_shadow_edge.empty());
-        for (const Channel mode : {Channel::shadow_visibility, Channel::local_visibility}) {
-            EXPECT_EQ(with.channels.count(mode), 1u);
-            EXPECT_EQ(without.channels.count(mode), 0u);
+        for (const Channel channel : {Channel::shadow_visibility, Channel::local_visibility}) {
+            EXPECT_EQ(with.channels.count(channel), 1u);
+            EXPECT_EQ(without.channels.count(channel), 0u);
         }
     }
 }

@@ -29,8 +29,8 @@ ReferenceImage drawnAt(const Scene& scene, double seconds, const View& view,
                  .progress = progress});
 }
 
-glm::vec3 at(const ReferenceImage& drawn, Channel mode, int x, int y) {
-    const Image& image = drawn.channels.at(mode);
+glm::vec3 at(const ReferenceImage& drawn, Channel channel, int x, int y) {
+    const Image& image = drawn.channels.at(channel);
     glm::vec3 result(0);
     for (int c = 0; c < image.components; ++c) result[c] = image.at(x, y, c);
     return result;
@@ -156,9 +156,9 @@ TEST(ReferenceMotion, NormalsArePosedToo) {
     scene.nodes[1].parent_from_node = glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0));
     const ReferenceImage turned = drawnAt(scene, 0, fromAbove);
     const glm::vec3 expected(std::sin(angle), 0, std::cos(angle));
-    for (const Channel mode : {Channel::normals, Channel::geometric_normal})
+    for (const Channel channel : {Channel::normals, Channel::geometric_normal})
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(at(turned, mode, left, row)[c], expected[c], 1e-6) << debugMode(mode).name;
+            EXPECT_NEAR(at(turned, channel, left, row)[c], expected[c], 1e-6) << debugMode(channel).name;
     EXPECT_NEAR(at(turned, Channel::lit, left, row).x, std::cos(angle) / pi, 1e-6);
 }
 

@@ -31,8 +31,8 @@ struct TexturedPlane {
         scene.textures.push_back({0, {}});
         scene.materials.emplace_back().base_color_texture.texture = 0;
         frame.settings.size = {texel_side, texel_side};
-        for (const Channel mode : {Channel::material_id, Channel::texcoords})
-            frame.channels[mode] = Image(texel_side, texel_side, debugMode(mode).width);
+        for (const Channel channel : {Channel::material_id, Channel::texcoords})
+            frame.channels[channel] = Image(texel_side, texel_side, debugMode(channel).width);
         for (int y = 0; y < texel_side; ++y)
             for (int x = 0; x < texel_side; ++x) {
                 Image& uv = frame.channels.at(Channel::texcoords);
@@ -74,8 +74,8 @@ std::map<Channel, Image> layerRanges(int low, const std::function<void(Material&
     set(m);
     return texelRanges(plane.scene, plane.frame, {});
 }
-double rangeIn(const std::map<Channel, Image>& ranges, Channel mode) {
-    const auto found = ranges.find(mode);
+double rangeIn(const std::map<Channel, Image>& ranges, Channel channel) {
+    const auto found = ranges.find(channel);
     return found == ranges.end() ? 0 : double{found->second.at(texel_side / 2, texel_side / 2, 0)};
 }
 
@@ -147,10 +147,10 @@ TEST(TexelRanges, OfSpecularGlossinessReachAlbedoAndRoughness) {
     m.specular_color = {0.25f, 0.5f, 0};
     m.roughness = 0.25f;
     const std::map<Channel, Image> ranges = texelRanges(plane.scene, plane.frame, {});
-    for (const auto& [mode, range] :
+    for (const auto& [channel, range] :
          {std::pair{Channel::dielectric_f0, 0.5}, {Channel::albedo, 0.25}, {Channel::roughness, 0.75}})
-        EXPECT_NEAR(ranges.at(mode).at(texel_side / 2, texel_side / 2, 0), range, 1e-6)
-            << debugMode(mode).name;
+        EXPECT_NEAR(ranges.at(channel).at(texel_side / 2, texel_side / 2, 0), range, 1e-6)
+            << debugMode(channel).name;
 }
 
 TEST(TexelRanges, OfMagnifiedTexturesAreTheirWeightsSteps) {

@@ -173,8 +173,8 @@ TEST(Haze, OfAMarchSomeErrorIsGranted) {
     const Requirements needs;
     const Coverage coverage = everyPixel(1);
     const FramePair pair{reference, path, needs, coverage};
-    const auto excess = [&](Channel mode) {
-        const auto errors = certainErrors(debugMode(mode), pair);
+    const auto excess = [&](Channel channel) {
+        const auto errors = certainErrors(debugMode(channel), pair);
         return errors ? errors->at(0) : -1.0;
     };
     EXPECT_EQ(excess(Channel::lit_haze), -1) << "judged as it is";

@@ -12,11 +12,11 @@ namespace diptych {
 namespace {
 
 TEST(SupportedChannels, WhoMakesOneIsNamedWhereAnotherIsAsked) {
-    const auto why = [](Path path, Channel mode, int samples = 1) {
+    const auto why = [](Path path, Channel channel, int samples = 1) {
         Settings settings;
         settings.path = path;
         settings.msaa = samples;
-        return std::string(unsupportedReason(settings, debugMode(mode)));
+        return std::string(unsupportedReason(settings, debugMode(channel)));
     };
     for (const Path path : {Path::deferred, Path::forward_plus, Path::reference})
         EXPECT_EQ(why(path, Channel::albedo), "");
@@ -30,10 +30,10 @@ TEST(SupportedChannels, WhoMakesOneIsNamedWhereAnotherIsAsked) {
 }
 
 TEST(SupportedChannels, TheReferenceMakesWhatIsAboutTheScene) {
-    for (const auto& [mode, made] :
+    for (const auto& [channel, made] :
          {std::pair{Channel::lit, true}, std::pair{Channel::tangent, true},
           std::pair{Channel::shaded_samples, false}, std::pair{Channel::cascade, false}})
-        EXPECT_EQ(isSupportedByReference(debugMode(mode)), made) << debugMode(mode).name;
+        EXPECT_EQ(isSupportedByReference(debugMode(channel)), made) << debugMode(channel).name;
 }
 
 }  // namespace
