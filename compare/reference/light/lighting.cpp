@@ -164,13 +164,14 @@ Shading Lighting::underCoat(const Surface& surface, const Visibility& visible, s
     Shading all = layer(sheenOf(surface), Multiscatter::off, visible, streamOf(seed, sheenStream));
     all.sheen = all.reflected.specular + all.ambient;
     all.rounding.w = all.rounding.y;
-    all += layer(underSheen(surface), multiscatter_, visible, seed) * keptUnderSheen(surface);
+    all += layer(underSheen(surface), multiscatter_, visible, seed) * sheenAlbedoScaling(surface);
     return all;
 }
 
 Reflected Lighting::reflectance(const Surface& surface, const glm::dvec3& to_light) const {
     const Surface under = underSheen(surface);
-    Reflected base = Brdf(under, compensationOf(under, multiscatter_))(to_light) * keptUnderSheen(surface);
+    Reflected base =
+        Brdf(under, compensationOf(under, multiscatter_))(to_light) * sheenAlbedoScaling(surface);
     if (hasSheen(surface)) base += Brdf(sheenOf(surface))(to_light);
     if (!(surface.clearcoat > 0)) return base;
     const double weight = coatWeight(surface);

@@ -197,7 +197,7 @@ glm::dvec3 transmitted(const Surface& s) {
     const glm::dvec3 layer = fresnel(filmOf(s), s.dielectric_f0, s.dielectric_f90, viewCosine(s));
     const glm::dvec3 base =
         s.albedo * (1.0 - lostToLayer(s.base_layer, layer)) * (s.transmission * (1 - s.metallic));
-    return base * ((1 - coatWeight(s)) * keptUnderSheen(s));
+    return base * ((1 - coatWeight(s)) * sheenAlbedoScaling(s));
 }
 
 }  // namespace diptych::reference

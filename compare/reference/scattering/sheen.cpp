@@ -30,7 +30,7 @@ Surface underSheen(const Surface& surface) {
     return s;
 }
 
-double keptUnderSheen(const Surface& s) {
+double sheenAlbedoScaling(const Surface& s) {
     if (!hasSheen(s)) return 1;
     const double max = std::max({s.sheen_color.r, s.sheen_color.g, s.sheen_color.b});
     return std::max(0.0, 1 - max * sheenAlbedo(s.sheen_roughness, glm::dot(s.normal, s.to_viewer)));

@@ -17,7 +17,7 @@ Surface sheenOf(const Surface& surface);
 Surface underSheen(const Surface& surface);
 // Fraction of its light that what lies under the sheen keeps; 1 without a sheen. It depends on the view
 // alone, as the extension allows.
-double keptUnderSheen(const Surface& surface);
+double sheenAlbedoScaling(const Surface& surface);
 
 // The lobe with the colour 1, for one view direction.
 class SheenLobe {

@@ -146,7 +146,7 @@ TEST(ReferenceDiffuseTransmission, SheensAndCoatsDimIt) {
     const double bare = shadedBy(std::span(&sun, 1), s).reflected.transmitted.g;
     s.sheen_color = glm::dvec3(0.5);
     s.sheen_roughness = 0.5;
-    const double kept = keptUnderSheen(s);
+    const double kept = sheenAlbedoScaling(s);
     EXPECT_LT(kept, 0.99);
     EXPECT_NEAR(shadedBy(std::span(&sun, 1), s).reflected.transmitted.g, kept * bare, 1e-12);
     s.clearcoat = 1;

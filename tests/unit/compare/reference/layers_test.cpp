@@ -56,7 +56,7 @@ protected:
         return s.clearcoat > 0 ? coatOf(s) : hasSheen(s) ? sheenOf(s) : s;
     }
     // Fraction of its light that the surface keeps under a coat or a sheen.
-    static double keptUnder(const Surface& s) { return (1 - coatWeight(s)) * keptUnderSheen(s); }
+    static double keptUnder(const Surface& s) { return (1 - coatWeight(s)) * sheenAlbedoScaling(s); }
     // The layer's own part of the light; 0 for layers without one.
     static glm::dvec3 partOf(const Shading& shading) {
         switch (GetParam().bit) {

@@ -80,7 +80,7 @@ TEST(ReferenceSheen, TheWhiteFurnace) {
             EXPECT_NEAR(red.sheen.g, albedo / 2, 1e-12);
         }
     const Surface shining = velvet(glm::dvec3(1), 0.1, std::acos(0.01));
-    EXPECT_EQ(keptUnderSheen(shining), 0);
+    EXPECT_EQ(sheenAlbedoScaling(shining), 0);
     EXPECT_NEAR(underAmbient(shining).ambient.g, sheenAlbedo(0.1, 0.01), 1e-12) << "above 1";
 }
 

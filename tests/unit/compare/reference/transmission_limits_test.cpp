@@ -41,7 +41,7 @@ double expectedInFurnace(const Surface& s) {
     const double layer = specularAlbedo(dielectric, compensationOf(dielectric, Multiscatter::energy)).g,
                  facing = schlick(s.to_viewer.z);
     double sum = 1 + s.transmission * (1 - s.metallic) * (layer - facing);
-    if (hasSheen(s)) sum = specularAlbedo(sheenOf(s)).g + keptUnderSheen(s) * sum;
+    if (hasSheen(s)) sum = specularAlbedo(sheenOf(s)).g + sheenAlbedoScaling(s) * sum;
     const double coat = coatWeight(s);
     return coat > 0 ? coat * specularAlbedo(coatOf(s)).g + (1 - coat) * sum : sum;
 }
