@@ -125,7 +125,7 @@ QuantityAudit auditQuantity(const Quantity& quantity, const Subject& subject,
     audit.original = quantity.original(subject);
     ChosenSeries chosen = seriesOf(quantity, subject);
     audit.series = std::move(chosen.series);
-    audit.left_out = std::move(chosen.left_out);
+    audit.omitted = std::move(chosen.omitted);
     std::set<double> magnitudes(quantity.magnitudes.begin(), quantity.magnitudes.end());
     magnitudes.insert(audit.original);
     magnitudes.insert(beside.begin(), beside.end());

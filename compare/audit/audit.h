@@ -55,8 +55,8 @@ struct QuantityAudit {
     std::string lacks;  // why it is not varied; empty if it is
     double original = 0;
     std::vector<Series> series;
-    std::vector<std::string> left_out;  // ChosenSeries::left_out
-    std::vector<Step> steps;            // ascending
+    std::vector<std::string> omitted;  // ChosenSeries::left_out
+    std::vector<Step> steps;           // ascending
     // By criterion and series.
     std::array<std::vector<ValidRange>, criterionCount> valid_ranges;
     // By criterion (only the two error criteria) and series.

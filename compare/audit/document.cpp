@@ -84,7 +84,7 @@ output::List remarksOn(const QuantityAudit& of) {
         }
     }
     for (const std::string& reason : reasons) list.items.emplace_back("predicted: " + reason);
-    for (const std::string& left : of.left_out) list.items.emplace_back("no series of its own: " + left);
+    for (const std::string& left : of.omitted) list.items.emplace_back("no series of its own: " + left);
     return list;
 }
 

@@ -72,7 +72,7 @@ Json quantityJson(const QuantityAudit& audit) {
         }
         json["series"].push_back(std::move(series));
     }
-    json["left_out"] = audit.left_out;
+    json["left_out"] = audit.omitted;
     json["failures"] = arrayOf(audit.failures, [](const Failure& failure) -> Json {
         return {{"words", failure.text}, {"scene", failure.scene}, {"command", failure.command}};
     });

@@ -126,14 +126,14 @@ ChosenSeries chosenOf(const std::vector<Series>& wanted,
     for (const Series& one : wanted) {
         const Settings settings = settingsOf(one);
         if (const auto problem = settings.problem()) {
-            chosen.left_out.push_back(one.describe() + ": " + *problem);
+            chosen.omitted.push_back(one.describe() + ": " + *problem);
             continue;
         }
         Settings effective = effectiveSettings(settings);
         const auto same = std::ranges::find(known, effective);
         if (same != known.end()) {
             const Series& as = chosen.series[static_cast<std::size_t>(same - known.begin())];
-            chosen.left_out.push_back(fmt::format("{} draws the same as {}", one.describe(), as.describe()));
+            chosen.omitted.push_back(fmt::format("{} draws the same as {}", one.describe(), as.describe()));
             continue;
         }
         known.push_back(std::move(effective));

@@ -32,7 +32,7 @@ struct Series {
 // Series that render different images, and descriptions of the omitted ones.
 struct ChosenSeries {
     std::vector<Series> series;
-    std::vector<std::string> left_out;  // "forward_plus, gbuffer full draws the same as forward_plus"
+    std::vector<std::string> omitted;  // "forward_plus, gbuffer full draws the same as forward_plus"
 };
 
 // Without series that have no meaning or render the same image as an earlier one.

@@ -107,7 +107,7 @@ public:
     // `spoil`: a fault injected into the changed case, for tests.
     RelationResult measure(const Relation& relation, const std::function<void(Case&)>& spoil = {});
     // Descriptions of omitted series.
-    const std::vector<std::string>& leftOut() const { return chosen_.left_out; }
+    const std::vector<std::string>& omitted() const { return chosen_.omitted; }
 
 private:
     // Images of a case, one for each series. If a path rejects the case, `failed` has the message.

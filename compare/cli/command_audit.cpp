@@ -199,7 +199,7 @@ int auditRelations(const AuditLine& options, const Settings& settings) {
         audited.notes.emplace_back("--shadows off: most relations do not test shadow maps");
     audit::RelationMeasurer measurer(opened.device, opened.subject,
                                      [&](const std::string& step) { logVerbose(options, step); });
-    for (const std::string& left : measurer.leftOut()) audited.notes.push_back("not drawn: " + left);
+    for (const std::string& left : measurer.omitted()) audited.notes.push_back("not drawn: " + left);
     const auto all = audit::relationsOf(options.chosen_relations);
     for (std::size_t i = 0; i < all.size(); ++i) {
         opened.stage.at(0.02 + 0.96 * static_cast<double>(i) / static_cast<double>(all.size()),
@@ -212,7 +212,7 @@ int auditRelations(const AuditLine& options, const Settings& settings) {
     const std::string json = audit::writeRelations(audited, opened.out, options.force);
     opened.progress.wipe();
     opened.print(output::inText(audit::closingOf(audited)));
-    for (const std::string& left : measurer.leftOut()) note(options, "not drawn: " + left);
+    for (const std::string& left : measurer.omitted()) note(options, "not drawn: " + left);
     if (options.json) printText(json);
     opened.print((opened.out / "index.html").string() + "\n");
     return exitCode(audited.passes());

@@ -124,9 +124,9 @@ output::List remarks(const Explanation& e, const ExplainedImages& of) {
     if (e.reproduction[0] != 0 || e.reproduction[1] != 0)
         add(fmt::format("lighting its own channels misses lit by {:.2g} % in {} and by {:.2g} % in {}",
                         100 * e.reproduction[0], of.baseline, 100 * e.reproduction[1], of.test));
-    if (e.lights_left_out > 0)
+    if (e.lights_omitted > 0)
         add(fmt::format("by light: the {} brightest were rendered alone, the other {} were not",
-                        e.lights_drawn, e.lights_left_out));
+                        e.lights_drawn, e.lights_omitted));
     add(fmt::format("{} shaded from {}", counted(static_cast<std::uint64_t>(e.subsets), "picture"),
                     counted(static_cast<std::uint64_t>(e.frames), "rendered frame")));
     return list;

@@ -67,7 +67,7 @@ struct Explanation {
     std::size_t subsets = 0, frames = 0;      // numbers of relit subsets, and of frames rendered for Settings
     std::vector<std::string> without_effect;  // names of differences that change no pixel
     // Numbers of lights rendered alone for Cause::lights, and of those omitted as too many; 0: none.
-    std::size_t lights_drawn = 0, lights_left_out = 0;
+    std::size_t lights_drawn = 0, lights_omitted = 0;
     // W x H x 1: index into `causes` of the largest contribution at the pixel; -1 where no cause brings lit
     // nearer.
     Image dominant;

@@ -139,7 +139,7 @@ nlohmann::ordered_json toJson(const Explanation& e, const ExplainedImages& of) {
             {"reproduction", {e.reproduction[0], e.reproduction[1]}},
             {"shaded", e.subsets},
             {"lights_drawn", e.lights_drawn},
-            {"lights_left_out", e.lights_left_out},
+            {"lights_left_out", e.lights_omitted},
             {"nonfinite", e.nonfinite},
             {"drawn", e.frames},
             {"command", of.commands.empty() ? Json(nullptr) : Json(of.commands.front().line)}};

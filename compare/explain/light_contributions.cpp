@@ -214,7 +214,7 @@ std::vector<CausePart> lightParts(const AblationCause& cause, const std::vector<
     const std::size_t room = maxLightBytes / (2 * 3 * sizeof(float) * map.size()), all = indices.size();
     indices.resize(std::min(all, std::clamp<std::size_t>(room, 1, maxLightsDrawn)));
     found.lights_drawn = std::max(found.lights_drawn, indices.size());
-    found.lights_left_out = std::max(found.lights_left_out, all - indices.size());
+    found.lights_omitted = std::max(found.lights_omitted, all - indices.size());
     // Each light's own contribution under some Settings.
     const auto alone = [&](const Settings& settings) {
         ChannelShading& shading = ablation.lighting().under(settings);

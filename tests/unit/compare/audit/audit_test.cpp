@@ -103,8 +103,8 @@ TEST(Audit, ALimitIsFoundBetweenTheSteps) {
     EXPECT_FALSE(audit.valid_ranges[0][0].down.broken);
     EXPECT_LE(audit.steps.size(), quantityOf("intensity").magnitudes.size() + 17);
     EXPECT_TRUE(std::ranges::is_sorted(audit.steps, {}, &Step::magnitude));
-    EXPECT_EQ(audited(quantityOf("offset"), subject, [](double) { return 1e-6; }).left_out,
-              seriesOf(quantityOf("offset"), subject).left_out);
+    EXPECT_EQ(audited(quantityOf("offset"), subject, [](double) { return 1e-6; }).omitted,
+              seriesOf(quantityOf("offset"), subject).omitted);
 }
 
 TEST(Audit, PredictionsAgreeWithinAFactorOfTwo) {
@@ -177,8 +177,8 @@ TEST(Audit, WhatADeviceRefusesIsNoFailure) {
 TEST(Audit, WhatIsLeftOutOfTheSeriesIsSaid) {
     const ChosenSeries offset = seriesOf(quantityOf("offset"), gallery());
     ASSERT_EQ(offset.series.size(), 3u);
-    ASSERT_EQ(offset.left_out.size(), 1u);
-    EXPECT_EQ(offset.left_out[0], "forward_plus, gbuffer full draws the same as forward_plus");
+    ASSERT_EQ(offset.omitted.size(), 1u);
+    EXPECT_EQ(offset.omitted[0], "forward_plus, gbuffer full draws the same as forward_plus");
     Settings settings;
     settings.shadows = Shadows::evsm;
     settings.evsm_exponent = 1000;
@@ -186,12 +186,12 @@ TEST(Audit, WhatIsLeftOutOfTheSeriesIsSaid) {
     const ChosenSeries refused =
         chosenOf({{Path::deferred, {{"shadows", "evsm"}}}}, [&](const Series&) { return settings; });
     EXPECT_TRUE(refused.series.empty());
-    EXPECT_EQ(refused.left_out.at(0), "deferred, shadows evsm: " + *settings.problem());
+    EXPECT_EQ(refused.omitted.at(0), "deferred, shadows evsm: " + *settings.problem());
     QuantityAudit audit;
     audit.quantity = &quantityOf("offset");
     audit.steps.emplace_back();
-    audit.left_out = offset.left_out;
-    EXPECT_NE(output::inText(blocksOf(audit)).find(offset.left_out[0]), std::string::npos);
+    audit.omitted = offset.omitted;
+    EXPECT_NE(output::inText(blocksOf(audit)).find(offset.omitted[0]), std::string::npos);
 }
 
 // A bound is not a prediction of the breaking point. A failure below the bound neither agrees nor
