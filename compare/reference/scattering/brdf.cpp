@@ -11,32 +11,29 @@
 namespace diptych::reference {
 namespace {
 
-double square(double x) {
-    return x * x;
-}
-
 // GGX, 1/sr; 0 for microfacets that face down. Walter et al. 2007, "Microfacet Models for Refraction
 // through Rough Surfaces", equation 33; anisotropic: Burley 2012, "Physically-Based Shading at Disney",
 // equation 13.
 double distribution(const Widths& w, const glm::dvec3& half, double n_dot_h) {
     if (!(n_dot_h > 0)) return 0;
     if (w.isotropic())
-        return square(w.across) / (std::numbers::pi * square(square(n_dot_h) * (square(w.across) - 1) + 1));
+        return squared(w.across) /
+               (std::numbers::pi * squared(squared(n_dot_h) * (squared(w.across) - 1) + 1));
     const double k =
-        square(glm::dot(w.x, half) / w.along) + square(glm::dot(w.y, half) / w.across) + square(n_dot_h);
-    return 1 / (std::numbers::pi * w.along * w.across * square(k));
+        squared(glm::dot(w.x, half) / w.along) + squared(glm::dot(w.y, half) / w.across) + squared(n_dot_h);
+    return 1 / (std::numbers::pi * w.along * w.across * squared(k));
 }
 
 // Heitz 2014, "Understanding the Masking-Shadowing Function", equation 72.
 double lambda(double alpha, double cosine) {
-    const double tangent2 = (1 - square(cosine)) / square(cosine);
-    return (std::sqrt(1 + square(alpha) * tangent2) - 1) / 2;
+    const double tangent2 = (1 - squared(cosine)) / squared(cosine);
+    return (std::sqrt(1 + squared(alpha) * tangent2) - 1) / 2;
 }
 
 // Schlick 1994, "An Inexpensive BRDF Model".
 double schlick(double v_dot_h) {
     const double x = std::clamp(1 - v_dot_h, 0.0, 1.0);
-    return square(square(x)) * x;
+    return squared(squared(x)) * x;
 }
 // Schlick's curve, mixed with the film's by its weight.
 glm::dvec3 fresnel(const ThinFilm& film, const glm::dvec3& f0, double f90, double cosine) {
@@ -53,16 +50,16 @@ double viewCosine(const Surface& s) {
 double widthTowards(const Widths& w, const glm::dvec3& direction) {
     if (w.isotropic()) return w.across;
     const double x = glm::dot(w.x, direction), y = glm::dot(w.y, direction);
-    const double square_length = square(x) + square(y);
+    const double square_length = squared(x) + squared(y);
     if (!(square_length > 0)) return w.across;
-    return std::sqrt((square(w.along * x) + square(w.across * y)) / square_length);
+    return std::sqrt((squared(w.along * x) + squared(w.across * y)) / square_length);
 }
 
 // The extension's text: alpha_t = mix(alpha, 1, strength^2), alpha_b = alpha.
 Widths widthsOf(const Surface& s) {
-    const double alpha = square(std::max(s.roughness, min_roughness));
+    const double alpha = squared(std::max(s.roughness, min_roughness));
     if (!(s.anisotropy > 0)) return {alpha, alpha};
-    return {alpha + (1 - alpha) * square(s.anisotropy), alpha, s.anisotropy_direction,
+    return {alpha + (1 - alpha) * squared(s.anisotropy), alpha, s.anisotropy_direction,
             glm::cross(s.normal, s.anisotropy_direction)};
 }
 
@@ -166,9 +163,9 @@ glm::dvec2 Brdf::rounding(const glm::dvec3& to_light, double angle_error) const 
     const glm::dvec3 half = halfway(to_light), up = normal_ * glm::dot(normal_, half), beside = half - up;
     if (sheen_) return glm::dvec2(of_cosine);
     const glm::dvec3 divided =
-        up + (widths_.isotropic() ? beside / square(widths_.across)
-                                  : widths_.x * (glm::dot(widths_.x, half) / square(widths_.along)) +
-                                        widths_.y * (glm::dot(widths_.y, half) / square(widths_.across)));
+        up + (widths_.isotropic() ? beside / squared(widths_.across)
+                                  : widths_.x * (glm::dot(widths_.x, half) / squared(widths_.along)) +
+                                        widths_.y * (glm::dot(widths_.y, half) / squared(widths_.across)));
     const double k = glm::dot(divided, half), steepness = 4 * glm::length(divided - half * k) / k;
     return {of_cosine,
             of_cosine + steepness * 2 * angle_error / std::max(glm::length(to_light + to_viewer_), 1e-3)};

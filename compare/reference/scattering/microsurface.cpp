@@ -18,10 +18,6 @@ namespace {
 constexpr double minCosine = 1e-9;
 constexpr double minView = 1e-4;  // n.v, as in the material (README.md, "The model")
 
-double squared(double x) {
-    return x * x;
-}
-
 }  // namespace
 
 // Smith's Lambda for GGX; for directions from below, Lambda(-w) = -1 - Lambda(w).

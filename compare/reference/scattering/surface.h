@@ -15,10 +15,14 @@
 
 namespace diptych::reference {
 
-// Bounds of the material model (README.md of this folder, "The model"), restated independently. A perfect
+// Bounds of the material model (compare/reference/README.md, "The model"), restated independently. A perfect
 // mirror under a punctual light is a delta function that cannot be sampled. A normal map may turn a visible
 // surface away from the viewer.
 inline constexpr double min_roughness = 0.045, min_n_dot_v = 1e-4;
+
+inline double squared(double x) {
+    return x * x;
+}
 
 struct Surface {
     glm::dvec3 position{0};

@@ -13,9 +13,6 @@ namespace {
 
 using std::numbers::pi;
 
-double squared(double x) {
-    return x * x;
-}
 double schlick(double f0, double cosine) {
     const double x = 1 - cosine;
     return f0 + (1 - f0) * squared(squared(x)) * x;
