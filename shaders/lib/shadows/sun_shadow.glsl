@@ -63,7 +63,8 @@ const float MAX_PLANE_BIAS = 2.0;
 // scene within few texels.
 const float MIN_SLOPE_COSINE = 1e-3;
 
-// `max_bias`: largest rise of the plane above the surface, texels.
+// The plane that is compared with the map, against shadow acne. `max_bias`: largest rise of the
+// plane above the surface, texels.
 ReceiverPlane sunReceiverPlane(const Surface s, const ShadowLight light, const Cascade cascade,
                                const float max_bias) {
     vec2 across = vec2(dot(s.geometric_normal, light.x), dot(s.geometric_normal, light.y));
