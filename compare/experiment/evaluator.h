@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws Settings of a scene, judges their images and times them in turn.
+// Draws Settings of a scene, evaluates their images and times them in turn.
 #pragma once
 
 #include "compare/experiment/prepared_pool.h"
@@ -15,7 +15,7 @@
 
 namespace diptych::experiment {
 
-// Draws, judges and times Settings of a scene: on a device, or from recorded times.
+// Draws, evaluates and times Settings of a scene: on a device, or from recorded times.
 class Evaluator {
 public:
     Evaluator() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The result of explain(): causes with their shares, the unexplained remainder, and maps.
+// The result of explain(): causes with their contributions, the unexplained remainder, and maps.
 #pragma once
 
 #include "shared/image/image.h"
@@ -27,22 +27,22 @@ struct Cause {
     double worst = 0;            // the largest contribution of a pixel, W/(sr m^2)
     int worst_x = 0, worst_y = 0;
     double dominates = 0;  // fraction, 0 to 1, of the pixels with any cause where this one is the largest
-    // Its share of the mean HDR-FLIP, by the same orders. All shares and
-    // Explanation::flip_unexplained sum to Explanation::flip.
+    // Its contribution to the mean HDR-FLIP, by the same orders. These and Explanation::flip_unexplained sum
+    // to Explanation::flip.
     double flip = 0;
     std::vector<CausePart> materials;  // of the baseline's pixels; descending
     // For direct light and shadows; descending. Excludes change that no light accounts for, and lights
     // that were not rendered.
     std::vector<CausePart> lights;
-    // W x H x 1: the pixel's contribution to the share times the number of pixels, W/(sr m^2). The mean is
-    // the share; negative where the cause compensates for others.
+    // W x H x 1: the pixel's part of `contribution` times the number of pixels, W/(sr m^2). The mean is
+    // `contribution`; negative where the cause compensates for others.
     Image map;
 };
 
 // Two causes whose joint effect differs from the sum of their effects.
 struct CausePair {
     std::size_t first = 0, second = 0;  // indices into Explanation::causes
-    double interaction = 0;             // Shares::interaction, W/(sr m^2)
+    double interaction = 0;             // Contributions::interaction, W/(sr m^2)
 };
 
 // A source's part of the distance between one path on two devices.
@@ -56,7 +56,7 @@ struct Explanation {
     // and after swapping all causes.
     double distance = 0, unexplained = 0;
     double flip = 0, flip_unexplained = 0;  // the same for mean HDR-FLIP
-    std::vector<Cause> causes;              // descending by share
+    std::vector<Cause> causes;              // descending by contribution
     std::vector<CausePair> pairs;           // those above 5 % of the distance, the largest first
     std::vector<DeviceContribution>
         devices;  // for two devices (device_contributions.h), descending; else empty
@@ -73,7 +73,7 @@ struct Explanation {
     Image dominant;
     Image unexplained_map;  // W x H x 1, as Cause::map; all maps sum to the pixel's difference
 
-    // A share as a fraction of the distance; 0 if the distance is 0.
+    // A contribution as a fraction of the distance; 0 if the distance is 0.
     double fractionOf(double contribution) const { return distance > 0 ? contribution / distance : 0.0; }
     double fractionOfFlip(double contribution) const { return flip > 0 ? contribution / flip : 0.0; }
 };

@@ -36,7 +36,7 @@ struct Probe {
 
     std::size_t ins = 1, outs = 1;  // floats in a row
     std::size_t rows = 1u << 16;
-    std::size_t line = 1;  // number of rows judged together
+    std::size_t line = 1;  // number of rows evaluated together
 
     std::function<void(Random&, std::size_t row, float* in)> make{};
     // The exact outputs in double, for inputs already rounded to float.

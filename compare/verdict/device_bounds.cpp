@@ -123,11 +123,11 @@ bool Shadowed::differs(std::size_t i) const {
 }
 
 double Shadowed::relative(std::size_t i) const {
-    double fraction = 0;
+    double sum = 0;
     for (const auto& [a, b, baseline] : images_)
         if (const double min = std::min(*a->pixel(i), *b->pixel(i)); min > 0)
-            fraction += metrics::distance(*a->pixel(i), *b->pixel(i)) / min;
-    return fraction;
+            sum += metrics::distance(*a->pixel(i), *b->pixel(i)) / min;
+    return sum;
 }
 
 bool Shadowed::isBesideEdge(std::size_t i) const {

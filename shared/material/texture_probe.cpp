@@ -88,7 +88,7 @@ TextureImage noise(std::uint32_t& state) {
     TextureImage image{"noise", noiseSide, noiseSide, {}};
     for (std::uint32_t band = 0; band < contrasts.size(); ++band)
         for (int block = 0; block < noiseSide / 8; ++block) {
-            // A block of 8 x 8 texels; `least` is its darkest code.
+            // A block of 8 x 8 texels; `min` is its darkest code.
             const std::uint32_t min = random() % (257 - contrasts[band]);
             for (int i = 0; i < 8 * 8 * 4; ++i)
                 image.rgba.push_back(static_cast<std::uint8_t>(min + random() % contrasts[band]));

@@ -255,7 +255,7 @@ TEST(ReferenceTool, KilledItGoesOnAsWell) {
     });
 }
 
-// Kills the tool once it has stored `least` tiles in a file that is not among `before`. Returns that file,
+// Kills the tool once it has stored `min` tiles in a file that is not among `before`. Returns that file,
 // or an empty path if the tool ended first.
 fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::path>& before,
                      std::size_t min) {

@@ -38,8 +38,8 @@ glm::dvec3 meanFresnel(const glm::dvec3& f0, double f90) {
     double weight = 0;
     for (int i = 0; i <= steps; ++i) {
         const double mu = static_cast<double>(i) / steps;
-        const double fraction = i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2;
-        weight += fraction * 2 * mu * std::pow(1 - mu, 5) / (3.0 * steps);
+        const double simpson = i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2;
+        weight += simpson * 2 * mu * std::pow(1 - mu, 5) / (3.0 * steps);
     }
     return f0 + (glm::dvec3(f90) - f0) * weight;
 }

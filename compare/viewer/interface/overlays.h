@@ -9,7 +9,7 @@
 
 namespace diptych::viewer {
 
-// Draws them all over the shown images, which must exist. `scale`: of the interface.
+// Draws all of these over the shown images, which must exist. `scale`: of the interface.
 void drawOverlays(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
                   const std::vector<PanelRect>& panel_rects, float scale);
 

@@ -25,8 +25,8 @@ const float MIRRORED_ROTATION = 1024.0;
 #define FOURTH(at) layout(location = at, component = 3) DIRECTION
 
 INPUT(0) vec3 v_normal;
-// feature_turned_maps: the tangent of their maps along tangent and bitangent. Times MIRRORED_ROTATION if
-// their bitangent has the other sign, so that interpolation keeps the two apart.
+// For layers in feature_turned_maps: the tangent of their maps, along tangent and bitangent. Times
+// MIRRORED_ROTATION if their bitangent has the other sign, so that interpolation keeps the two apart.
 FOURTH(0) float v_rotation_cosine;
 INPUT(1) vec4 v_tangent;
 INPUT(2) vec3 v_world;  // world axes, camera as origin, m; only for the triangle's normal

@@ -24,7 +24,7 @@ namespace {
 // A number after the name, as in "spheres?lights=64".
 struct Parameter {
     std::string_view name;
-    std::uint32_t default_value, max;  // default and largest value
+    std::uint32_t default_value, max;
 };
 using Numbers = std::span<const std::uint32_t>;  // one per parameter, in order
 

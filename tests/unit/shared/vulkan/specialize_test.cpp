@@ -91,7 +91,7 @@ std::map<std::string, int> interfaceOf(const SpirvWords& words) {
     return found;
 }
 
-// Runs `judge` on each module with these values, on all cores. Returns its messages with module name and
+// Runs `evaluate` on each module with these values, on all cores. Returns its messages with module name and
 // seed.
 std::string ofEveryModule(
     std::uint32_t first, std::uint32_t end,
