@@ -135,7 +135,7 @@ OutputFolder::OutputFolder(const fs::path& folder)
     if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
 }
 
-// Opens the folder once it exists, and holds it.
+// Opens the folder once it exists, and pins it.
 bool OutputFolder::isThere() {
     const std::string name = folder_.filename();
     if (!destination_.isOpen() && beside_.has(name)) {

@@ -66,7 +66,7 @@ double gpuSlack(const DebugMode& mode, const Image& baseline);
 const Frame* encodingFrame(const DebugMode& mode, const FramePair& pair);
 
 // Quantization error bound of a surface channel for a packed path against the reference, in the channel's
-// metric; 0 for forward+, a full G-buffer and lit channels.
+// error kind; 0 for forward+, a full G-buffer and lit channels.
 double encodingBound(const DebugMode& mode, const FramePair& pair);
 
 // Comparison with the reference: errors of the covered pixels in row-major order, without the encoding's

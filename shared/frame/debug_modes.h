@@ -47,7 +47,7 @@ struct ChannelCode {
     unsigned standard = 0, compact = 0;
 };
 
-// How a channel is shown as an image; by_metric: by its kind and metric.
+// How a channel is shown as an image; by_metric: by its kind and error kind.
 enum class ShownAs { by_metric, radiance, display, normalised };
 
 struct DebugMode {

@@ -163,7 +163,7 @@ struct Field {
     std::string_view one_for_reference = {};
 
     // Values in a sweep of speed against accuracy: "all" of an enumeration or switch, or a comma-separated
-    // list; for sizes, fractions of the given size. Empty for scene content, which the reference depends
+    // list; for sizes, fractions of the requested size. Empty for scene content, which the reference depends
     // on.
     std::string_view sweep = {};
     // Settings whose swept values are combined with this one's, comma-separated; "*": every other Setting.

@@ -387,7 +387,7 @@ TEST(ReferenceTool, AStoredReferenceEvaluatesAsOneDrawnNow) {
         EXPECT_EQ(a["comparisons"][row]["channels"], b["comparisons"][row]["channels"]);
 }
 
-// A sampled reference is judged with each pixel's uncertainty, which is not a channel of the image.
+// A sampled reference is evaluated with each pixel's uncertainty, which is not a channel of the image.
 TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     const Folder folder;
     Image sky(8, 4, 3, 0.2f);

@@ -6,7 +6,7 @@
 // input is extrapolated beyond its triangle. v_world is not: only its derivatives are used, and the shaded
 // locations of neighbouring pixels are not one pixel apart.
 // Vulkan guarantees 16 locations of four components. All inputs together use these, so the first UV set
-// and the turn of maps take the fourth components of others.
+// and the rotation of maps take the fourth components of others.
 #ifndef INPUTS_GLSL
 #define INPUTS_GLSL
 
