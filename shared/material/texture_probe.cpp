@@ -46,14 +46,14 @@ std::vector<float> sampled(Device& device, const TextureImage& content, bool srg
         const TextureFormat format = textureFormat(device, image, colors, precision);
         return uploadTexture(device, uploader, MipChain(image, colors, format.texels), format.format);
     };
-    const GpuImage positionsImage = upload(where, true), imageImage = upload(content, srgb);
+    const GpuImage positionsImage = upload(where, true), contentImage = upload(content, srgb);
     uploader.flush();
     const OwnedSampler fetch = makeNearestSampler(device),
                        sampler = makeSampler(device, probeSampler(linear));
     const OwnedDescriptorSetLayout setLayout = makeSetLayout(device, probeTypes);
     DescriptorSets sets(device, setLayout, probeTypes, 1);
     sets.image(0, 0, positionsImage.view(), fetch, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    sets.image(0, 1, imageImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    sets.image(0, 1, contentImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
     const OwnedPipelineLayout layout =
         makePipelineLayout(device, std::array<VkDescriptorSetLayout, 1>{setLayout});
