@@ -51,7 +51,7 @@ using experiment::Measure;
 // 8-bit images (Case::exposure), the largest component difference as a fraction of white. flip: the same
 // reference. depth_p99: of view depth, against rays that the reference traces in double. They are infinite
 // if nothing was rendered.
-// reference_moved: with Quantity::same_picture, whose truth is then the image of the original scene.
+// reference_moved: with Quantity::same_image, whose truth is then the image of the original scene.
 // Measures how far the reference can be trusted.
 struct Outcome : experiment::Row {
     int worst_x = -1, worst_y = -1;  // first non-finite pixel, or the one with the largest error of lit

@@ -43,7 +43,7 @@ double largest(const float* pixel, int components) {
     return max;
 }
 
-// Of the components. Infinite if one value is not finite and the other is not the same.
+// Over the components. Infinite if one value is not finite and the other is not the same.
 double largestDifference(const float* a, const float* b, int components) {
     double max = 0;
     for (int c = 0; c < components; ++c) {
@@ -55,7 +55,7 @@ double largestDifference(const float* a, const float* b, int components) {
 }
 
 // Fraction of the tolerance used; a non-finite error exceeds any tolerance, even an infinite one.
-double fractionOf(double error, double allowed) {
+double ratioOf(double error, double allowed) {
     if (error == 0) return 0;
     return allowed > 0 && error < unbounded ? error / allowed : unbounded;
 }
@@ -295,8 +295,8 @@ private:
                 tolerance_.relative * std::max(std::abs(double{p[c]}), std::abs(double{q[c]})) +
                 std::numeric_limits<float>::min();
             const double is = largestDifference(p + c, q + c, 1);
-            if (c > 0 && fractionOf(is, may) <= worst) continue;
-            worst = fractionOf(is, may);
+            if (c > 0 && ratioOf(is, may) <= worst) continue;
+            worst = ratioOf(is, may);
             error = is;
             allowed = may;
         }
@@ -312,11 +312,11 @@ private:
             double allowed = 0;
             const double error = errorAt(mode, i, allowed);
             if (error == 0) continue;
-            const double fraction = fractionOf(error, allowed);
-            used.data[i] = static_cast<float>(fraction);
-            result.beyond += fraction > 1;
-            if (fraction <= result.used && result.x >= 0) continue;
-            result.used = fraction;
+            const double ratio = ratioOf(error, allowed);
+            used.data[i] = static_cast<float>(ratio);
+            result.beyond += ratio > 1;
+            if (ratio <= result.used && result.x >= 0) continue;
+            result.used = ratio;
             result.error = error;
             result.allowed = allowed;
             result.x = static_cast<int>(i) % image.width;

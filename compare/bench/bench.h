@@ -54,7 +54,7 @@ inline constexpr const char* starMeans =
 
 // SVG of time over light count, log-log: a panel per size, a line per mode with bars from least to
 // greatest time. With one light count: a stacked bar of passes per mode. Of time and memory over the quantity
-// of --table growth; of time over the share that layers cover.
+// of --table growth; of time over the fraction that layers cover.
 std::string benchPlot(const Bench& bench, PlotTarget target);
 // bench.json, schema 2, without the list of files.
 nlohmann::ordered_json benchJson(const Bench& bench);

@@ -243,7 +243,7 @@ BenchCases growthCases(const Settings& requested, const BenchOptions& options) {
     return cases;
 }
 
-// No layers, then each kind by the share that it covers.
+// No layers, then each kind by the fraction that it covers.
 std::vector<Cover> tableCovers() {
     std::vector<Cover> covers{Cover()};
     for (const std::string_view kind : {"coated", "woven", "brushed", "glass"})

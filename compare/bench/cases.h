@@ -18,7 +18,7 @@ namespace diptych::bench {
 using experiment::Measure;
 
 // Rows of the benchmark: all modes; both paths with and without transparency, by samples per pixel; both
-// paths by an increasing quantity; or both paths and --layers, by the share that layered materials cover.
+// paths by an increasing quantity; or both paths and --layers, by the fraction that layered materials cover.
 enum class BenchTable { modes, msaa, growth, layers };
 
 // The increasing quantity of --table growth.
@@ -30,7 +30,7 @@ struct GrowthPoint {
     double value;
 };
 
-// A material's layer and the share of the image that it covers: --table layers.
+// A material's layer and the fraction of the image that it covers: --table layers.
 struct Cover {
     std::string_view kind;  // parameter of builtin:covered; empty: no layer
     int percent = 0;

@@ -54,7 +54,7 @@ std::string Conclusion::describe() const {
 }
 
 std::vector<Conclusion> conclusionsOf(const Bench& bench) {
-    // growthText() and layersInWords() replace them.
+    // growthText() and layersText() replace them.
     if (bench.options.table == BenchTable::growth || bench.options.table == BenchTable::layers) return {};
     std::vector<const BenchRow*> left;
     for (const BenchRow& row : bench.rows)

@@ -59,7 +59,7 @@ double memoryMib(const BenchRow& row);
 // A sentence per line and metric: where growth starts, its exponent, and the pass that causes most of it.
 std::vector<std::string> growthText(const Bench& bench);
 
-// --table layers: time, memory and registers of three ways to draw layered materials, by the share of the
+// --table layers: time, memory and registers of three ways to draw layered materials, by the fraction of the
 // image that they cover and by lights.
 struct LayerWay {
     bool has_gbuffer;
@@ -116,7 +116,7 @@ std::vector<SampleTable> sampleTables(const Bench& bench);
 
 // Bytes per sample of depth and, for deferred, the G-buffer.
 std::uint64_t bytesPerSample(const BenchRow& row);
-// full-size images.
+// MiB of all full-size images.
 double imageMib(const BenchRow& row);
 
 // One sentence per path: bytes per sample, and the totals at 1920x1080.

@@ -25,7 +25,7 @@ std::string numberText(double value) {
     return value < 1e5 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
-// The pass whose time grows most from the first row to the last, and its share of all added time.
+// The pass whose time grows most from the first row to the last, and its fraction of all added time.
 std::string cause(const GrowthLine& line) {
     const std::vector<PassTime>&first = line.rows.front()->passes, &last = line.rows.back()->passes;
     double all = 0, max = 0;

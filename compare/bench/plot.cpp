@@ -58,8 +58,8 @@ Plot growthPlot(const Bench& bench) {
     return plot;
 }
 
-// Time over the covered share: a panel per light count and kind, a series per way. Rows without layers are in
-// each. Shares stand at even distances.
+// Time over the covered fraction: a panel per light count and kind, a series per way. Rows without layers are
+// in each. Fractions stand at even distances.
 Plot layersPlot(const Bench& bench) {
     const std::vector<LayerRow> rows = layerRows(bench);
     std::vector<std::string_view> kinds;  // in the table's order

@@ -174,7 +174,7 @@ Span verdictOf(const Report& report) {
     return {fits ? "fits" : "nothing fits", Span::verdict, fits ? "pass" : "fail"};
 }
 
-// The chosen or nearest Settings, why, and the command. `metrics`: of them; empty: none.
+// The chosen or nearest Settings, why, and the command. `metrics`: their text; empty: none.
 template <class Report>
 output::Box outcomeBox(const Report& report, const std::string& metrics, const Sentences& lines) {
     const auto& choice = report.choice;
@@ -192,7 +192,7 @@ output::Box outcomeBox(const Report& report, const std::string& metrics, const S
     return box;
 }
 
-// The chosen candidate first, then raced ones, then judged ones; each group by time.
+// The chosen candidate first, then raced ones, then evaluated ones; each group by time.
 Table candidateTable(const ChoiceReport& report) {
     const SettingsChoice& choice = report.choice;
     std::vector<std::size_t> order(choice.candidates.size());
@@ -251,8 +251,8 @@ double endOf(const Candidate& candidate, double TimeRatio::*end) {
     return candidate.ms() / candidate.race->ratio * (*candidate.race).*end;
 }
 
-// SVG of error over time for all judged and timed candidates. Shows time intervals of raced candidates, the
-// budget and the Pareto front. Both axes are logarithmic; errors of 0 and infinity get their own lanes.
+// SVG of error over time for all evaluated and timed candidates. Shows time intervals of raced candidates,
+// the budget and the Pareto front. Both axes are logarithmic; errors of 0 and infinity get their own lanes.
 std::string plotOf(const ChoiceReport& report, PlotTarget target) {
     const SettingsChoice& choice = report.choice;
     const std::string_view metric = titleOf(report.budget.metric);

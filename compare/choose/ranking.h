@@ -40,8 +40,8 @@ struct Race {
 Race raceOf(const Ranking& ranking, std::span<const std::size_t> finalists);
 
 // Each round renders every remaining finalist in an order and its reverse, which cancels a drift of the
-// device's speed. Needs at least one finalist. Runs `least` to `most` rounds; the first call of `draw`
-// has `least` rounds.
+// device's speed. Needs at least one finalist. Runs `min` to `max` rounds; the first call of `draw`
+// has `min` rounds.
 Ranking rankByTime(std::size_t finalists, const DrawInOrder& draw, int min = 2, int max = 8);
 
 }  // namespace diptych::choose

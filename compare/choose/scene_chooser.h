@@ -28,7 +28,7 @@ struct Question {
     ImageChoice image;
 };
 
-// An error measure. Throws std::runtime_error if --metric names none.
+// The measure of an error metric. Throws std::runtime_error if --metric names none.
 Measure metricNamed(const std::string& name);
 
 class SceneChooser {
@@ -45,7 +45,7 @@ public:
 private:
     struct LoadedScene;  // a scene, read and uploaded
     LoadedScene& load(const std::string& scene, const Stage& progress);
-    // `given`: Settings that candidates change.
+    // `requested`: Settings that candidates change.
     SettingsChoice search(LoadedScene& loaded, const Settings& requested,
                           const std::vector<Settings>& candidates, const Stage& progress) const;
     // A candidate's words, and a command for all cameras and maybe other scenes.

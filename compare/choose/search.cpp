@@ -19,9 +19,9 @@ constexpr double worthShifting = 0.15;
 constexpr std::size_t triedTogether = 3, maxInVain = 6;
 // Predictions sum noisy effects: candidates predicted worse than needed by these factors are still tried.
 constexpr double timeSlack = 1.2, budgetSlack = 1.1;
-// Slower candidates, relative to the best, are not judged after their two frames.
+// Slower candidates, relative to the best, are not evaluated after their two frames.
 constexpr double worthEvaluating = 1.05;
-// Table rows slower than a fitting one by this factor are not judged.
+// Table rows slower than a fitting one by this factor are not evaluated.
 constexpr double hopeless = 1.5;
 // Smaller gains in log time do not count as improvements.
 constexpr double worthNoticing = 0.02;
@@ -122,7 +122,7 @@ private:
                 evaluate(i);
             }
         }
-        // If nothing fits yet, judge slow candidates as well.
+        // If nothing fits yet, evaluate slow candidates as well.
         for (std::size_t i = 0; i < all_.size() && !std::isfinite(minFitting()); ++i) evaluate(i);
     }
     double minFitting() const {
@@ -133,7 +133,7 @@ private:
     }
 
     Effect measured(std::size_t i) const {
-        // A row that was not judged borrows its first candidate's error: it is too slow anyway.
+        // A row that was not evaluated borrows its first candidate's error: it is too slow anyway.
         const Candidate& candidate = all_[i];
         const Candidate& evaluated =
             candidate.isEvaluated() ? candidate : all_[firsts_.at(candidate.settings.path)];

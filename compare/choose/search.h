@@ -40,7 +40,7 @@ std::vector<Settings> tableOf(std::span<const Settings> candidates);
 inline constexpr std::size_t maxInTable = 24;
 
 struct Budget {
-    Measure metric = Measure::flip;  // the error's
+    Measure metric = Measure::flip;  // of `error`
     std::optional<double> error;
     std::optional<double> ms;            // per frame
     std::optional<std::uint64_t> bytes;  // images and buffers of a frame

@@ -54,7 +54,7 @@ struct Lines {
     }
 };
 
-// Geometric steps. A range from 0 starts with a step to 1e-5 of `most`.
+// Geometric steps. A range from 0 starts with a step to 1e-5 of `max`.
 double stepped(double min, double max, int step) {
     if (min <= 0 && step == 0) return 0;
     const double from = min > 0 ? min : 1e-5 * max, part = static_cast<double>(step) / rangeSteps;
@@ -65,7 +65,7 @@ double farOff(double a, double b) {
     return a > 0 && b > 0 ? std::abs(std::log(a / b)) : std::abs(a - b);
 }
 
-// The break-even point nearest to `value`, between `least` and `most`. `times`: ascending values. Empty if
+// The break-even point nearest to `value`, between `min` and `max`. `times`: ascending values. Empty if
 // its interval reaches an end of that range. Between two measured values, the half-widths are weighted
 // like the values and added as independent errors; the interval of the break-even point is then Fieller's
 // (1954).

@@ -105,7 +105,7 @@ void leave(const ExplainLine& options, const ImageChoice& image, const Explanati
     }
 }
 
-// The view of `ours`, rendered by the one --renderer.
+// The view of `own`, rendered by the only --renderer.
 Frame drawnByOther(const ExplainLine& options, SceneViews& views, const Frame& own, Renderer& drawing,
                    const RenderOptions& render) {
     const external::ExternalRenderer& renderer = options.renderers.front();

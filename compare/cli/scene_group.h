@@ -23,7 +23,7 @@ struct SettingsGroup {
     SideSettings sides;                    // --deferred, --forward-plus
     std::vector<std::string> cameras{""};  // one Frame per camera, scene and path
     std::vector<double> times{0.0};        // --times: s; one Frame per time, camera, path, scene
-    int frames = 1;                        // image count, first at settings.time
+    int frames = 1;                        // number of images; the first is at settings.time
     double fps = 30;                       // images per second
     bool camera_requested = false;         // by --camera or --settings
     bool path_requested = false;           // by --path

@@ -17,7 +17,7 @@ namespace diptych::experiment {
 // The value; infinity if it is not finite.
 double knownOrInfinite(double value);
 
-// The ceil(share N)-th smallest value; 0 without values.
+// The ceil(fraction N)-th smallest value; 0 without values.
 double nearestRank(std::vector<double> values, double fraction);
 
 // Errors of a Frame of the reference's size. `pixels`: relative error of each covered pixel.

@@ -20,7 +20,7 @@ struct MeanInterval {
 };
 // `doubted`: 1 - confidence.
 MeanInterval meanInterval(std::span<const double> values, double doubted);
-// The same for the differences a[i] - b[i]. Values that only one of them has are left out.
+// The same for the differences a[i] - b[i]. Values that only one of them has are omitted.
 MeanInterval meanDifference(std::span<const double> a, std::span<const double> b, double doubted);
 
 // A time over another, with its confidence interval.

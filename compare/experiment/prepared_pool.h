@@ -19,7 +19,7 @@ struct Shot {
     FrameBytes bytes;
 };
 
-// Keeps the latest frames, up to `maxBytes` of their images and buffers: some four at 640x360. Others are
+// Keeps the latest frames, up to `maxBytes` of their images and buffers: about four at 640x360. Others are
 // prepared again. Keeps more shots than frames.
 class PreparedPool {
 public:
@@ -47,7 +47,7 @@ private:
         PreparedFrames frames;
         std::uint64_t bytes;
     };
-    void keep(std::uint64_t max);  // the latest up to that many bytes, at least one
+    void keep(std::uint64_t max);  // the latest, up to `max` bytes; at least one
 
     Renderer& renderer_;
     std::list<Prepared> latest_;  // the latest last

@@ -132,12 +132,12 @@ void joinCameras(Row& row) {
     row.passes.clear();
     for (const Row& camera : row.cameras)
         for (const PassTime& pass : camera.passes) {
-            const double fraction = pass.ms / static_cast<double>(row.cameras.size());
+            const double ms = pass.ms / static_cast<double>(row.cameras.size());
             const auto known = std::ranges::find(row.passes, pass.name, &PassTime::name);
             if (known != row.passes.end())
-                known->ms += fraction;
+                known->ms += ms;
             else
-                row.passes.push_back({pass.name, fraction});
+                row.passes.push_back({pass.name, ms});
         }
 }
 

@@ -51,7 +51,7 @@ struct SkipGroup {
 };
 std::vector<SkipGroup> groupsOf(const std::vector<SweepSkip>& skips);
 
-// Settings of a row that differ from `given`. The path comes first and is always included.
+// Settings of a row that differ from `requested`. The path comes first and is always included.
 std::vector<Change> changesOf(const Settings& row, const Settings& requested);
 std::string describe(const std::vector<Change>& choices);  // "deferred, gbuffer compact"
 

@@ -136,7 +136,7 @@ AblationResults ablate(Ablation& ablation, const Image& lit, const Stage& progre
     return results;
 }
 
-// Pairs of causes that interact. `order`: the causes with an effect, descending by share.
+// Pairs of causes that interact. `order`: the causes with an effect, descending by contribution.
 std::vector<CausePair> pairsOf(const Contributions& contributions, const std::vector<std::size_t>& order,
                                double distance) {
     std::vector<CausePair> pairs;

@@ -2,8 +2,8 @@
 // Explains a difference of lit between two Frames by ablation. A surface channel, a Setting or the
 // residual is taken from the baseline, all else from the test, and the image is relit. The residual is the
 // part of lit that relighting a Frame's own channels does not reproduce, such as MSAA edges. Each cause is
-// credited with how much nearer lit comes to the baseline's. Shares are Shapley values (shapley.h) over
-// the whole image and at each pixel.
+// credited with how much nearer lit comes to the baseline's. Contributions are Shapley values (shapley.h)
+// over the whole image and at each pixel.
 #pragma once
 
 #include "compare/explain/explanation.h"

@@ -27,22 +27,22 @@ struct Cause {
     double worst = 0;            // the largest contribution of a pixel, W/(sr m^2)
     int worst_x = 0, worst_y = 0;
     double dominates = 0;  // fraction, 0 to 1, of the pixels with any cause where this one is the largest
-    // Its contribution to the mean HDR-FLIP, by the same orders. All contributions and
-    // Explanation::flip_unexplained sum to Explanation::flip.
+    // Its contribution to the mean HDR-FLIP, by the same orders. These and Explanation::flip_unexplained sum
+    // to Explanation::flip.
     double flip = 0;
     std::vector<CausePart> materials;  // of the baseline's pixels; descending
     // For direct light and shadows; descending. Excludes change that no light accounts for, and lights
     // that were not rendered.
     std::vector<CausePart> lights;
-    // W x H x 1: the pixel's part of the contribution times the number of pixels, W/(sr m^2). The mean
-    // is the contribution; negative where the cause compensates for others.
+    // W x H x 1: the pixel's part of `contribution` times the number of pixels, W/(sr m^2). The mean is
+    // `contribution`; negative where the cause compensates for others.
     Image map;
 };
 
 // Two causes whose joint effect differs from the sum of their effects.
 struct CausePair {
     std::size_t first = 0, second = 0;  // indices into Explanation::causes
-    double interaction = 0;             // Shares::interaction, W/(sr m^2)
+    double interaction = 0;             // Contributions::interaction, W/(sr m^2)
 };
 
 // A source's part of the distance between one path on two devices.

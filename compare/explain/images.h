@@ -40,13 +40,13 @@ Image8 dominantImage(const Explanation& explanation, const Image8& shown);
 // pixels that differ.
 double topOfMaps(const Explanation& explanation);
 
-// W x H x 1 shares in the colours of errorMap(); blue where negative.
+// W x H x 1 contributions in the colours of errorMap(); blue where negative.
 Image8 contributionImage(const Image& contributions, double top);
 
-// Both sides' lit as an image, with one exposure: channelImage().
+// lit of one side as an image (channelImage()), at the exposure of `baseline`.
 Image8 litImage(const Frame& frame, const Frame& baseline, const ImageChoice& choice);
 
-// The difference of both images, each cause's contribution of it, and the unexplained remainder, all on one
+// The difference of both images, each cause's contribution to it, and the unexplained remainder, all on one
 // scale.
 std::vector<NamedImage> explanationMaps(const Explanation& explanation);
 

@@ -22,18 +22,18 @@ constexpr int maxCauses = 31;
 struct Contributions {
     double all = 0;                    // value of all causes minus that of none
     std::vector<double> contribution;  // of each cause; they sum to `all`, to rounding
-    // Half the 95 % confidence interval of each share; 0: exact.
+    // Half the 95 % confidence interval of each contribution; 0: exact.
     std::vector<double> interval;
     std::vector<double> alone, last;  // value of each cause alone; effect of swapping it after all others
     // For each pair i < j, at index i + j (j - 1) / 2: their joint effect minus the sum of their effects
     // (the interaction index of Grabisch and Roubens 1999, "An axiomatic approach to the concept of
     // interaction among players in cooperative games"). Negative: one makes the other redundant; positive:
-    // one hides the other's effect. Empty if shares are sampled.
+    // one hides the other's effect. Empty if contributions are sampled.
     std::vector<double> interaction;
 };
 
-// The same shares as a linear form, for values that are images: share i is the sum over the subsets,
-// ascending, of weight[i] times the value.
+// The same contributions as a linear form, for values that are images: contribution i is the sum over the
+// subsets, ascending, of weight[i] times the value.
 struct SubsetWeights {
     Subset subset = 0;
     std::vector<double> weight;
@@ -41,7 +41,7 @@ struct SubsetWeights {
 std::vector<SubsetWeights> exactWeights(int causes);
 std::vector<SubsetWeights> sampledWeights(int causes, int orders, std::uint64_t seed);
 
-// Of every subset. Throws std::invalid_argument beyond maxExactCauses.
+// Evaluates every subset. Throws std::invalid_argument beyond maxExactCauses.
 Contributions exactContributions(int causes, const SubsetValue& value);
 
 // From `orders` random orders of the causes (Castro, Gomez and Tejada 2009, "Polynomial calculation of the

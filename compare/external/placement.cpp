@@ -44,7 +44,7 @@ double brightness(const Image& image, int x, int y) {
     return max;
 }
 
-// Pixels around `place` with more than half of the maximum, which also works under a tone curve.
+// Pixels around `position` with more than half of the maximum, which also works under a tone curve.
 std::optional<Mark> findMark(const Image& image, const glm::dvec2& position, double reach) {
     const glm::dvec2 corner = position + glm::dvec2(image.width, image.height) / 2.0;
     const int left = std::max(0, static_cast<int>(corner.x - reach)),
@@ -85,7 +85,7 @@ Line lineThrough(const std::vector<double>& a, const std::vector<double>& b) {
     return {slope, mb - slope * ma};
 }
 
-// Refines `guess` from at least `least` marks. Empty if a mark that must be visible is not found.
+// Refines `guess` from at least `min` marks. Empty if a mark that must be visible is not found.
 std::optional<Placement> fitted(const std::vector<Mark>& marks, const Image& image, const Placement& guess) {
     constexpr std::size_t min = 4;
     std::vector<double> expected_x, expected_y, actual_x, actual_y;

@@ -75,8 +75,8 @@ double Response::straight(double actual) const {
     auto next = std::ranges::lower_bound(ramp_, actual, {}, &RampStep::actual);
     next = std::clamp(next, ramp_.begin() + 1, ramp_.end() - 1);
     const RampStep &a = *(next - 1), &b = *next;
-    const double fraction = std::log(actual / a.actual) / std::log(b.actual / a.actual);
-    return a.expected * std::pow(b.expected / a.expected, fraction);
+    const double exponent = std::log(actual / a.actual) / std::log(b.actual / a.actual);
+    return a.expected * std::pow(b.expected / a.expected, exponent);
 }
 
 void Response::measurePrimaries(const std::array<glm::dvec3, 3>& columns, double expected) {

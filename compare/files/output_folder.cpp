@@ -75,8 +75,8 @@ bool isWritable(const OpenFolder& folder) {
     return ::faccessat(folder.descriptor(), ".", R_OK | W_OK, AT_EACCESS) == 0;
 }
 
-// Whether the folder can be replaced: it contains only the regular files `ours`, their folders, and `aside`.
-// `below`: empty, or the names' beginning.
+// Whether the folder can be replaced: it contains only the regular files `written`, their folders, and
+// `aside`. `below`: empty, or the names' beginning.
 bool holdsOnly(const OpenFolder& folder, const std::set<std::string>& written, const std::string& below,
                const std::string& aside) {
     return isWritable(folder) && std::ranges::all_of(folder.names(), [&](const std::string& name) {
@@ -135,7 +135,7 @@ OutputFolder::OutputFolder(const fs::path& folder)
     if (!temporary_->createFolder()) throw std::runtime_error(writingFailed(folder, errno));
 }
 
-// Opens the folder once it exists, and holds it.
+// Opens the folder once it exists, and pins it.
 bool OutputFolder::isThere() {
     const std::string name = folder_.filename();
     if (!destination_.isOpen() && beside_.has(name)) {

@@ -20,7 +20,8 @@ std::uint64_t nonfinitePixels(const Image& image);
 // these pixels.
 std::vector<std::uint32_t> replaceNonfinite(Image& image);
 
-// Adds replaced pixels of one of a channel's images: of any sample, through the G-buffer, before blending.
+// Adds the replaced pixels of one image of a channel: of any sample, through the G-buffer, or before
+// blending.
 void recordNonfinite(Frame& frame, Channel channel, const std::vector<std::uint32_t>& pixels);
 
 // One line for each channel with replaced pixels: "lit was NaN or infinite at 3 pixels, the first at 4,2:

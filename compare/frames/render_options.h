@@ -56,7 +56,7 @@ struct RenderOptions {
     std::function<reference::Checkpoint&(std::uint64_t key, std::size_t floats)> keep{};
 };
 
-// Whether a channel of `channels` is left out: it is 0 in scenes without its layer. `layers`: of the scene.
+// Whether a channel of `channels` is omitted: it is 0 in scenes without its layer. `layers`: of the scene.
 inline bool isOmitted(const RenderOptions& options, gpu::uint layers, Channel channel) {
     const bool asked = options.named && std::ranges::count(options.requested, channel) > 0;
     return !mayShow(channel, layers) && !asked;

@@ -71,7 +71,7 @@ public:
           zeros_(zeros),
           count_(std::accumulate(first.begin(), first.end(), zeros)) {}
 
-    // The ceil(share N)-th smallest error for each share.
+    // The ceil(fraction N)-th smallest error for each fraction.
     std::array<double, 2> nearest(const std::array<double, 2>& fractions) const {
         std::array<double, 2> values{};
         std::vector<Sought> sought;

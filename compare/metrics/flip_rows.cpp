@@ -40,8 +40,8 @@ constexpr Matrix xyzFromRgb = [] {
     const Matrix solve = inverse(primaries);
     Matrix m{};
     for (unsigned c = 0; c < 3; ++c) {
-        const double fraction = solve[c][0] * white[0] + solve[c][1] * white[1] + solve[c][2] * white[2];
-        for (unsigned i = 0; i < 3; ++i) m[i][c] = primaries[i][c] * fraction / white[i];
+        const double scale = solve[c][0] * white[0] + solve[c][1] * white[1] + solve[c][2] * white[2];
+        for (unsigned i = 0; i < 3; ++i) m[i][c] = primaries[i][c] * scale / white[i];
     }
     return m;
 }();
@@ -147,7 +147,7 @@ DIPTYCH_WIDE_LANES void errorsOfComparable(float* __restrict out, const Comparab
     }
 }
 
-// Clamps x to [0, `most`]: above it every curve exceeds 1, and squares might overflow.
+// Clamps x to [0, `max`]: above it every curve exceeds 1, and squares might overflow.
 inline float limited(float x, float max) {
     x = x < 0 ? 0.0f : x;
     return x > max ? max : x;

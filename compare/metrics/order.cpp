@@ -93,7 +93,7 @@ std::vector<Order::Bin> Order::within(const std::vector<std::size_t>& wanted) co
 std::vector<float> Order::nearestRanks(std::span<const double> fractions) const {
     std::vector<float> values(fractions.size());
     if (size_ == 0) return values;
-    std::vector<std::size_t> found, in;  // distinct bins; index in `found` for each share
+    std::vector<std::size_t> found, in;  // distinct bins; index in `found` for each fraction
     std::vector<std::uint64_t> left;     // ranks within the bins
     for (const double fraction : fractions) {
         auto rank = static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(size_)));

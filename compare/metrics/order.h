@@ -27,12 +27,12 @@ public:
     double sum() const { return sum_; }
     double mean() const { return size_ ? sum_ / static_cast<double>(size_) : 0; }
 
-    // The ceil(share N)-th smallest value (nearest rank), share in [0, 1]; share 0 is the smallest. 0
+    // The ceil(fraction N)-th smallest value (nearest rank), `fraction` in [0, 1]; for 0 the smallest. 0
     // without values.
     float nearestRank(double fraction) const { return nearestRanks({&fraction, 1}).front(); }
     std::vector<float> nearestRanks(std::span<const double> fractions) const;  // reads the values once
     // A quantile weighted by value: the least value such that all values up to it add up to at least
-    // `share` of the sum. 0 if the sum is 0; the sum must be finite.
+    // `fraction` of the sum. 0 if the sum is 0; the sum must be finite.
     float weightedQuantile(double fraction) const;
 
 private:

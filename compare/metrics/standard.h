@@ -31,7 +31,7 @@ struct StandardMetrics {
     // Over pixels: |t-r| / max(|r|, 1e-3 mean), |.| the pixel's largest component, mean as in PixelError.
     // Percentiles use the nearest rank, up to float rounding.
     double relative_max = 0, relative_mean = 0, relative_p99 = 0, relative_p999 = 0;
-    // Degrees, between lines if the metric is axial; 0 except for ChannelKind::vector with 3 components.
+    // Degrees, between lines if the error kind is axial; 0 except for ChannelKind::vector with 3 components.
     double angle_max = 0, angle_mean = 0;
     double length_max = 0;  // | |t| - |r| |; likewise
 

@@ -14,7 +14,7 @@ namespace diptych::output {
 std::string inText(const Table& table, std::size_t first = 0, std::size_t last = ~std::size_t{0});
 
 // For a terminal: a line for each heading, paragraph and term, items of lists indented by two spaces. Boxes
-// that open at a click, images and drawings are left out.
+// that open at a click, images and drawings are omitted.
 std::string inText(const std::vector<Block>& blocks);
 
 // RFC 4180: fields with a comma, a quote or a line break are quoted.

@@ -57,7 +57,7 @@ bool consistsOf(std::string_view text, std::string_view others) {
     });
 }
 
-// A place in the page, an embedded image, or a file below the page's folder.
+// An anchor in the page, an embedded image, or a file below the page's folder.
 bool isAddress(std::string_view value) {
     constexpr std::string_view image = "data:image/png;base64,";
     if (value.empty() || value.starts_with('#')) return true;

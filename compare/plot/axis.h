@@ -28,7 +28,7 @@ public:
     // The nearest end for values that the axis does not show.
     double at(double value) const;
     // Powers of ten; if few are visible, multiples of them; over less than a decade, even steps. Then lanes.
-    // A name that would overlap another is left out.
+    // A name that would overlap another is omitted.
     std::vector<PlotTick> ticks() const;
 
 private:

@@ -36,8 +36,8 @@ N attenuationSequence(Vec<N> to_light, N inverse_range_squared, N& inverse) {
 // No range, one far beyond the distance, or one close to it.
 float randomRange(Random& random, double distance) {
     if (random.bits() % 4 == 0) return 0;
-    const double fraction = random.coin() ? random.logarithmic(1, 1e3) : random.uniform(0.9, 1.1),
-                 inverse = 1 / (distance * fraction);
+    const double ratio = random.coin() ? random.logarithmic(1, 1e3) : random.uniform(0.9, 1.1),
+                 inverse = 1 / (distance * ratio);
     return static_cast<float>(std::clamp(inverse * inverse, 1e-37, 1e37));
 }
 

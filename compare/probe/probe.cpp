@@ -34,7 +34,7 @@ void evaluateRow(const Probe& probe, std::size_t row, const float* in, const flo
     probe.allowance(in, allowed.data());
     for (std::size_t k = 0; k < probe.outs; ++k) {
         const double e = expected[k];
-        // Values below the normal range may be flushed to 0: they are judged, but not counted in ULP.
+        // Values below the normal range may be flushed to 0: they are evaluated, but not counted in ULP.
         const double step = probe.step                           ? probe.step(in, k, e)
                             : std::abs(e) < min_normal && e != 0 ? 0
                                                                  : ulpOf(e);

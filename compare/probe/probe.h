@@ -36,7 +36,7 @@ struct Probe {
 
     std::size_t ins = 1, outs = 1;  // floats in a row
     std::size_t rows = 1u << 16;
-    std::size_t line = 1;  // number of rows judged together
+    std::size_t line = 1;  // number of rows evaluated together
 
     std::function<void(Random&, std::size_t row, float* in)> make{};
     // The exact outputs in double, for inputs already rounded to float.
@@ -47,7 +47,7 @@ struct Probe {
     std::function<void(const float* in, float* out)> inexact{};
     // The unit of an output's error; empty: the ULP of the expected value.
     std::function<double(const float* in, std::size_t output, double expected)> step{};
-    // Judges a line of rows, instead of definition and allowance.
+    // Evaluates a line of rows, instead of definition and allowance.
     std::function<void(const float* in, const float* out, Tally&)> evaluate{};
 
     // Along a line, output 0 only grows (1) or only falls (-1); 0: not checked.
@@ -83,7 +83,7 @@ float onLine(std::size_t row, std::size_t line, double from, double to);
 // Inputs of `rows` rows, starting at row `first`.
 std::vector<float> inputsOf(const Probe& probe, std::size_t first, std::size_t rows);
 
-// Judges complete lines of results.
+// Evaluates complete lines of results.
 Tally evaluated(const Probe& probe, std::size_t first, const std::vector<float>& in,
                 const std::vector<float>& out);
 

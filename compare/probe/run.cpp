@@ -10,7 +10,7 @@ namespace diptych::probe {
 namespace {
 
 constexpr std::size_t chunk_rows = 1u << 17;  // per submit
-constexpr std::size_t task_rows = 1u << 12;   // judged by one thread
+constexpr std::size_t task_rows = 1u << 12;   // evaluated by one thread
 
 std::size_t wholeLines(std::size_t rows, std::size_t line) {
     return std::max(rows / line, std::size_t{1}) * line;

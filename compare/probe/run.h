@@ -22,7 +22,7 @@ struct Result {
     bool passed = false;
 };
 
-// Generates inputs, runs the probe and judges the results; at most `max_rows` rows.
+// Generates inputs, runs the probe and evaluates the results; at most `max_rows` rows.
 Result runProbe(DeviceRows& rows, const Probe& probe, std::size_t max_rows = SIZE_MAX);
 Result concluded(const Probe& probe, Tally tally);
 

@@ -17,7 +17,7 @@ std::size_t binOf(double error) {
     return static_cast<std::size_t>(std::min(bin, double{error_bins - 1}));
 }
 
-// Independent of the order in which rows are judged.
+// Independent of the order in which rows are evaluated.
 void keepWorse(Worst& worst, const Worst& other) {
     if (other.any &&
         (!worst.any || other.error > worst.error || (other.error == worst.error && other.row < worst.row)))

@@ -23,15 +23,15 @@ struct Worst {
 
 class Tally {
 public:
-    // Adds the result of a row. `step`: the unit of the error; 0: the error is judged but not counted.
+    // Adds the result of a row. `step`: the unit of the error; 0: the error is evaluated but not counted.
     void value(std::size_t row, std::size_t output, float got, double expected, double allowed, double step);
     // Adds a step of a monotone function against its direction.
     void back(std::size_t row, float before, float after);
     void add(const Tally& other);
 
-    std::size_t first_row = 0;     // of the judged line
-    std::uint64_t results = 0;     // judged
-    std::uint64_t unpromised = 0;  // not judged, because Vulkan guarantees nothing
+    std::size_t first_row = 0;     // of the evaluated line
+    std::uint64_t results = 0;     // evaluated
+    std::uint64_t unpromised = 0;  // not evaluated, because Vulkan guarantees nothing
     std::uint64_t failures = 0;    // above the allowed error
     std::uint64_t nonfinite = 0;   // NaN or infinity
     std::uint64_t backward = 0;    // steps against the direction of a monotone function

@@ -13,8 +13,8 @@
 
 namespace diptych::reference {
 
-// Numbered records of floats, each with a checksum. Complete records stay usable however the program ends.
-// Thread-safe.
+// Records of floats, each with an index and a checksum. Complete records stay usable however the program
+// ends. Thread-safe.
 class Checkpoint {
 public:
     struct Record {

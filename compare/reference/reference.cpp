@@ -208,7 +208,7 @@ private:
     const Request& request_;
     const int across_, down_;
     int floats_ = 0;                                          // floats per pixel; a tile has one more
-    std::vector<std::pair<const DebugMode*, Image*>> drawn_;  // images in picture_
+    std::vector<std::pair<const DebugMode*, Image*>> drawn_;  // images in image_
     ReferenceImage image_;
 };
 

@@ -15,7 +15,7 @@
 namespace diptych::reference {
 
 struct ReferenceImage {
-    // by debug mode number, all supported channels; background as in a Frame
+    // All supported channels; background as in a Frame
     std::map<Channel, Image> channels;
     // litModes of the surfaces of Request::decoded; positions, visibility and blended surfaces as in
     // `channels`.

@@ -15,7 +15,7 @@ namespace diptych::reference {
 
 // Renders pixels spread evenly over a width x height image, coarse first, on all cores, and discards them
 // (R2 sequence: M. Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"). It stops
-// after `most` or a hundredth of the image. Returns the estimated seconds for all pixels; empty if that
+// after `max` or a hundredth of the image. Returns the estimated seconds for all pixels; empty if that
 // hundredth took less than 20 ms. `render(x, y)` renders one pixel, from any thread.
 template <class Render>
 std::optional<double> expectedSeconds(int width, int height, const Render& render,

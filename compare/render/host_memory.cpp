@@ -50,9 +50,9 @@ double captureBytes(const Settings& settings, const RenderOptions& options, bool
     return bytes;
 }
 
-// The reference's double-precision sums and its other outputs; `checkpointedReference` of them stay in
-// memory.
-constexpr double checkpointedReference = 60;
+// Bytes per pixel of the reference's double-precision sums and other outputs; `retainedReference` of them
+// stay in memory.
+constexpr double retainedReference = 60;
 double referenceBytes(const Settings& settings, const RenderOptions& options) {
     constexpr double lit = 190, surfaces = 110, evaluated = 190;
     return lit + (settings.reference_mode == ReferenceMode::surface ? surfaces : 0) +
@@ -93,7 +93,7 @@ std::uint64_t hostMemory(std::span<const Settings> settings, const RenderOptions
         paths.insert(of.path);
         if (isReference(of.path)) {
             largest = std::max(largest, pixelsOf(of) * referenceBytes(of, options));
-            held += pixelsOf(of) * checkpointedReference;
+            held += pixelsOf(of) * retainedReference;
             continue;
         }
         const double images = software ? imageBytes(of, sun) : 0;

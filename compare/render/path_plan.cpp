@@ -44,7 +44,7 @@ std::string layerCost(gpu::uint layer, const Requirements& needs, const Settings
                        layerBytes(layer, settings.gbuffer) * static_cast<gpu::uint>(settings.msaa));
 }
 
-// What a layer's model leaves out, with its size where light is lost or gained.
+// Omissions of a layer's model, with their size where light is lost or gained.
 std::string limitOf(std::string_view what, const SceneView& view, const Settings& settings) {
     if (what == "anisotropy") {
         const bool split = !view.needs.environment.empty() && settings.ibl == Ibl::split;

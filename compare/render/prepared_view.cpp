@@ -41,12 +41,12 @@ std::optional<std::uint32_t> objectPixelLights(const Settings& settings) {
 }
 
 // Empty if no directional light casts shadows or shadows are off.
-std::optional<CastingSun> castingSun(const std::vector<Light>& requested, const GpuLights& lights,
+std::optional<CastingSun> castingSun(const std::vector<Light>& scene_lights, const GpuLights& lights,
                                      const Settings& settings) {
     if (settings.shadows == Shadows::off) return {};
-    const std::optional<std::size_t> sun = brightestSun(requested);
+    const std::optional<std::size_t> sun = brightestSun(scene_lights);
     for (gpu::uint i = 0; sun && i < lights.directional; ++i)
-        if (lights.sources[i] == *sun) return CastingSun{i, double{requested[*sun].angle}};
+        if (lights.sources[i] == *sun) return CastingSun{i, double{scene_lights[*sun].angle}};
     return {};
 }
 

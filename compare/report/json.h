@@ -30,7 +30,7 @@ namespace diptych {
 //   emptiness            why a comparison's images show nothing; null if they show something
 //   explanation          what `explain --json` prints, or the only key not_explained with the reason; null
 //                        unless lit fails or --explain asks. It ignores --mask and the like
-//   criterion            what decided a channel; null if it is not judged. metric, its measured value, and
+//   criterion            what decided a channel; null if it is not evaluated. metric, its measured value, and
 //                        its limit (least: the value must not be below). pixels_beyond and share_beyond count
 //                        pixels over the limit; if no single pixel's error decides, differing_pixels and
 //                        differing_share count all that differ

@@ -18,7 +18,7 @@ namespace diptych {
 
 namespace {
 
-// Whether a rule's `metric` limits single errors of the metric in the image: the maximum, or a percentile.
+// Whether a rule's `metric` is a maximum or a percentile of the errors that the difference image shows.
 bool isDrawn(const ChannelDiff& channel, std::string_view metric) {
     const auto isOneOf = [&](std::initializer_list<std::string_view> names) {
         return std::ranges::count(names, metric) > 0;

@@ -18,7 +18,7 @@ double sortable(double value) {
 }
 
 // The failing channel that uses the largest fraction of its tolerance. If none fails, the passing one,
-// except channels judged by encoding attribution, which have a tolerance per pixel.
+// except channels evaluated by encoding attribution, which have a tolerance per pixel.
 const ChannelDiff* worstOf(const Comparison& comparison) {
     const ChannelDiff* worst = nullptr;
     for (const bool failing : {true, false}) {

@@ -61,7 +61,7 @@ std::vector<GroupedNote> groupedNotes(const Report& report);
 // "bad.glb: is cut short", whether or not the message begins with the name.
 std::string errorText(const SceneError& error);
 
-// "a, b and 3 more": at most `most` of the names.
+// "a, b and 3 more": at most `max` of the names.
 std::string listed(const std::vector<std::string>& names, std::size_t max);
 
 // "pass: all 14 compared channels are within tolerance", "FAIL: lit, normals beyond tolerance", "FAIL: 20

@@ -36,7 +36,7 @@ struct Trends {
 // Trends of a report's comparisons; `rows` are its rows. Maximum, mean, RMSE and percentiles change by no
 // more than the error of any pixel. So a metric has moved if it changed by more than the noise: the
 // largest differences of two runs, summed over both paths and both reports. On a CPU runs are identical,
-// and any change counts. FLIP, which has no such bound, and times are not judged. `earlier`: a report.json
+// and any change counts. FLIP, which has no such bound, and times are not evaluated. `earlier`: a report.json
 // or its folder. Throws std::runtime_error naming it if it is not a report.
 Trends trendsSince(const std::filesystem::path& earlier, const Report& report,
                    const std::vector<IndexRow>& rows);

@@ -46,11 +46,11 @@ std::size_t terminalColumns(std::FILE* stream) {
 
 bool hasColor(ColorChoice choice, std::FILE* stream) {
     if (choice != ColorChoice::automatic) return choice == ColorChoice::on;
-    const auto requested = [](const char* name) {
+    const auto variable = [](const char* name) {
         const char* value = std::getenv(name);
         return std::string_view(value ? value : "");
     };
-    return requested("NO_COLOR").empty() && !requested("TERM").empty() && requested("TERM") != "dumb" &&
+    return variable("NO_COLOR").empty() && !variable("TERM").empty() && variable("TERM") != "dumb" &&
            isatty(fileno(stream)) == 1;
 }
 

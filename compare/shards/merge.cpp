@@ -29,7 +29,7 @@ std::string shortened(std::string text) {
     return text.size() <= max ? text : text.substr(0, max) + "...";
 }
 
-// Describes how another manifest's command differs from ours.
+// Describes how another manifest differs from the first.
 std::string differenceOf(const Manifest& other, const Manifest& first) {
     if (other.build != first.build)
         return fmt::format("is from another build ({}; the others are from {})", other.build, first.build);

@@ -52,8 +52,8 @@ Json jsonOf(const TradeoffRow& row) {
     return json;
 }
 
-TradeoffRow tradeoffRowFrom(const Json& requested) {
-    const JsonAt<Json> json(requested);
+TradeoffRow tradeoffRowFrom(const Json& object) {
+    const JsonAt<Json> json(object);
     return {experiment::rowFrom(json), json.at("drawing_ms").number(), json.at("picture").text(),
             json.at("error_picture").text()};
 }

@@ -27,7 +27,7 @@ struct SweepQuestion {
     std::vector<std::string> cameras;
     Settings settings;
     experiment::SweepRows rows;
-    bool only_sensitive = true;  // leave out rows that differ in nothing the scene is sensitive to
+    bool only_sensitive = true;  // omit rows that differ in nothing the scene is sensitive to
     RenderOptions drawing;       // `runs`: timed frames of each row
     ImageChoice image;
     std::filesystem::path folder;                                                    // of the output
@@ -56,7 +56,7 @@ public:
     std::string write(bool force);
 
 private:
-    SceneViews& sensitiveViews();  // leaves out insensitive rows
+    SceneViews& sensitiveViews();  // omits insensitive rows
     experiment::ReferenceFrames drawReferences();
     nlohmann::ordered_json key() const;
     void drawRows(const Stage& stage, const std::function<void(std::size_t)>& shown);

@@ -46,7 +46,7 @@ public:
 
 private:
     output::Table head_;
-    std::size_t settings_width_;  // width of the Settings
+    std::size_t settings_width_;  // width of the column of Settings
     bool commands_;
 };
 }  // namespace diptych::tradeoff

@@ -32,7 +32,7 @@ using experiment::shadowMetrics;
 using experiment::SkipGroup;
 using experiment::SweepSkip;
 
-// The measure of an error, an index in errorMetrics.
+// The measure of an error metric. `metric`: index in errorMetrics.
 constexpr Measure errorMeasure(std::size_t metric) {
     return Measure::flip + metric;
 }

@@ -12,7 +12,7 @@ namespace diptych {
 
 struct AfterBlending {
     std::uint64_t covered = 0;  // compared pixels with blended surfaces
-    std::uint64_t before = 0;   // pixels of which lit differs before blending
+    std::uint64_t before = 0;   // pixels whose lit differs before blending
     std::uint64_t pixels = 0;   // pixels that differ after it and did not, or less, before
     std::uint64_t allowed = 0;  // permitted number of such pixels
     double largest = 0;         // their largest difference after it, in lit's error kind

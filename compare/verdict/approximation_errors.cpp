@@ -74,7 +74,7 @@ double meanApproximationError(const std::vector<ApproximationError>& errors) {
 }
 
 std::string approximationErrorText(const DebugMode& mode, const std::vector<ApproximationError>& errors) {
-    // The JSON also has approximations with less than a tenth of the largest grant.
+    // The JSON also has approximations with less than a tenth of the largest mean.
     std::string text;
     for (const ApproximationError& each : errors) {
         if (each.mean < 0.1 * errors.front().mean) break;

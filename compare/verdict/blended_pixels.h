@@ -27,7 +27,7 @@ public:
     double allowed(const DebugMode& mode, std::size_t pixel) const;
     // Tolerance of light through rough or refracting glass; 0 for other pixels and channels. A path takes
     // this light from any pixel of its image of opaque surfaces; the reference traces it. Neither is below
-    // 0, so they differ by at most the larger: the share that passes of the image's brightest pixel, or
+    // 0, so they differ by at most the larger: the transmitted fraction of the image's brightest pixel, or
     // the reference's transmitted light. Light that the glass reflects has no part in it.
     double throughGlass(const DebugMode& mode, std::size_t pixel) const;
     bool anyGlass() const;
@@ -44,7 +44,7 @@ private:
 
     const FramePair& pair_;
     const Frame* reference_ = nullptr;  // with Frame::blended
-    double brightest_ = 0;              // component of its image of opaque surfaces, W/(sr m^2)
+    double brightest_ = 0;              // largest component of the image of opaque surfaces, W/(sr m^2)
 };
 
 }  // namespace diptych

@@ -113,7 +113,7 @@ void leadWithNonfinite(ChannelDiff& channel, const FramePair& pair) {
     channel.reason = fmt::format("NaN or infinity at {}; {}", who, channel.reason);
 }
 
-// Shows certainErrors() instead of the metric's own errors, and the largest of them.
+// Shows certainErrors() instead of the channel's own errors, and the largest of them.
 void showExcess(ChannelDiff& channel, const FramePair& pair, const std::vector<double>& excess) {
     const Image& like = pair.baseline.channels.at(channel.mode->channel);
     auto shown = std::make_shared<Image>(like.width, like.height, 1);

@@ -51,7 +51,7 @@ struct ChannelDiff {
     Verdict verdict = Verdict::pass;
     std::string reason;   // why it failed; else empty
     std::string warning;  // warning of a rule; else empty
-    // If set, the difference image shows this instead of the pixels' errors: the image, its name, and the
+    // If set, the difference image shows this instead of the channel's errors: the image, its name, and the
     // error at the end of its colour map.
     std::shared_ptr<const Image> shown_error;
     std::string shown_error_name;

@@ -52,9 +52,9 @@ bool visibilitiesDiffer(const Image& a, std::size_t i, const Image& b, std::size
     return metrics::distance(p, q) > 2 * shadingRounding || (p == 0) != (q == 0);
 }
 
-// Pixels below this many floors of the metric round like a pixel of this many. Integrals over area lights
-// sum terms that cancel: in the lobe's tail, float32 rounding is that of a tenth of the mean luminance.
-// (With ten floors, two pixels of builtin:areas at 333x187 were out of tolerance, by 1.13.)
+// Pixels below this many floors of the error (PixelError) round like a pixel of this many. Integrals over
+// area lights sum terms that cancel: in the lobe's tail, float32 rounding is that of a tenth of the mean
+// luminance. (With ten floors, two pixels of builtin:areas at 333x187 were out of tolerance, by 1.13.)
 double roundedFloors(const Requirements& needs) {
     return needs.areaLights() > 0 ? 100 : 1;
 }
@@ -123,11 +123,11 @@ bool Shadowed::differs(std::size_t i) const {
 }
 
 double Shadowed::relative(std::size_t i) const {
-    double fraction = 0;
+    double sum = 0;
     for (const auto& [a, b, baseline] : images_)
         if (const double min = std::min(*a->pixel(i), *b->pixel(i)); min > 0)
-            fraction += metrics::distance(*a->pixel(i), *b->pixel(i)) / min;
-    return fraction;
+            sum += metrics::distance(*a->pixel(i), *b->pixel(i)) / min;
+    return sum;
 }
 
 bool Shadowed::isBesideEdge(std::size_t i) const {

@@ -88,14 +88,14 @@ public:
                 continue;
             }
             result.max = std::max(result.max, bound);
-            const double fraction = error == 0          ? 0
-                                    : std::isinf(error) ? error  // whatever its bound
-                                                        : error / std::max(bound, 0.0);
-            used.push_back(fraction);
-            if (!(glass > 0)) others_used.push_back(fraction);
-            result.beyond += fraction > 1;
-            if (!(fraction > largest)) continue;
-            largest = fraction;
+            const double ratio = error == 0          ? 0
+                                 : std::isinf(error) ? error  // whatever its bound
+                                                     : error / std::max(bound, 0.0);
+            used.push_back(ratio);
+            if (!(glass > 0)) others_used.push_back(ratio);
+            result.beyond += ratio > 1;
+            if (!(ratio > largest)) continue;
+            largest = ratio;
             result.x = static_cast<int>(i) % baseline_.width;
             result.y = static_cast<int>(i) / baseline_.width;
         }
@@ -221,7 +221,7 @@ private:
         const double range = rangeAt(mode_, reference, i);
         const double size = std::max(metrics::largestFinite(baseline_.pixel(i), mode_.width), error_.floor());
         const double unit =
-            mode_.error_kind == ErrorKind::relative ? size : 1;  // of the error kind, in the channel's
+            mode_.error_kind == ErrorKind::relative ? size : 1;  // of the error, in the channel's unit
         if (isGeometry(mode_)) return (range * 2 * snap + shadingRounding * std::max(size, 1e-9)) / unit;
         // A fiftieth of the channel's range; two degrees for directions.
         const double smooth = isAngle(mode_.error_kind) ? 2 : 0.02 * unit;

@@ -30,7 +30,7 @@ struct Footprints {
     double max = 0;              // largest bound, in the channel's error kind
     std::uint64_t detailed = 0;  // pixels compared by FLIP
     double flip = 0;             // mean FLIP of these
-    std::uint64_t edges = 0;     // pixels not compared, of channels that are no image
+    std::uint64_t edges = 0;     // pixels not compared: of geometry and ids
 
     std::uint64_t pixels() const { return smooth + detailed + edges; }
     double closeFraction() const;  // fraction of pixels with a bound of their own; 1 without pixels

@@ -40,7 +40,7 @@ struct Criterion {
     // NaN or infinite", "p99.9 of the excess" (certainErrors()).
     std::string metric;
     double measured = 0;
-    double limit = 0;               // largest value that passes; with `least` the smallest
+    double limit = 0;               // largest value that passes; with `min` the smallest
     bool min = false;               // for psnr and ssim
     std::optional<double> above{};  // if the metric is a fraction of pixels: their error threshold
     // Covered pixels out of tolerance; for a metric of the whole channel (a mean, FLIP), those that differ
@@ -71,9 +71,9 @@ struct Condition {
 // undefined never passes.
 std::optional<std::string> violation(const Condition& condition, const Measured& measured);
 
-// The bound that decides whether the condition passes, without `Criterion::pixels`. Of bounds that must all
-// pass, it is the one of which most is used (usedOf()); of alternatives, the one of which least is used.
-// Empty if the condition bounds nothing, or a metric that is undefined for the channel.
+// The bound that decides whether the condition passes, without `Criterion::pixels`. Among bounds that must
+// all pass, it is the one with the highest use (usedOf()); among alternatives, the one with the lowest. Empty
+// if the condition bounds nothing, or a metric that is undefined for the channel.
 std::optional<Criterion> decidingBound(const Condition& condition, const Measured& measured);
 
 // Whether any part of the condition bounds the metric.

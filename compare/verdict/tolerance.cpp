@@ -21,7 +21,7 @@ namespace diptych {
 namespace {
 
 // Tolerance of values with an exponent: half a step relative to the value, or half of the smallest step,
-// which is `least`.
+// which is `min`.
 Tolerance floatTolerance(const DebugMode& mode, const FramePair& pair, const Tolerance& relative,
                          const Tolerance& min) {
     const Image& baseline = pair.baseline.channels.at(mode.channel);

@@ -78,7 +78,7 @@ std::optional<std::vector<double>> certainErrors(const DebugMode& mode, const Fr
 std::vector<double> openErrors(const DebugMode& mode, const FramePair& pair, const Image& baseline,
                                const Image& test);
 
-// The least of the values that at least `share` of them, 0 to 1, do not exceed; 0 without values.
+// The smallest value that at least a `fraction` of all values, 0 to 1, do not exceed; 0 without values.
 double nearestRank(std::vector<double> values, double fraction);
 
 // Number of pixels where deferred differs from forward+'s shading of surfaces after the G-buffer's

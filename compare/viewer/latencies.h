@@ -21,7 +21,7 @@ class Latencies {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // `say` receives each timing as a line; times of the first images count from `begun`.
+    // `report` receives each timing as a line; times of the first images count from `begun`.
     Latencies(std::function<void(const std::string&)> report, Clock::time_point begun);
 
     // A key was pressed; `request` is the latest request, 0: none.

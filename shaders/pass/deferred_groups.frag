@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Determines a pixel's sample groups and writes them as the depth of all its samples
-// (shaders/lib/samples/sample_groups.glsl).
+// Groups a pixel's samples (shaders/lib/samples/sample_pairs.glsl) and writes the groups as a depth, the
+// same for all samples (shaders/lib/samples/sample_groups.glsl).
 #define FLAT_VIEW
 #include "shaders/lib/samples/sample_pairs.glsl"
 

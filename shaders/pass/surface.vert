@@ -47,7 +47,7 @@ vec2 slotTexcoord(const uint slot, const vec4 texcoords) {
     return bounded(vec2(dot(t.u, vec3(uv, 1.0)), dot(t.v, vec3(uv, 1.0))));
 }
 
-// The turn is decoded in object axes, where it was made, and becomes one in world axes.
+// The rotation is decoded in object axes, where it was made, and becomes one in world axes.
 void rotateTangent(const Vertex v, const float sign_of_bitangent) {
     float coded = abs(v.tangent.w) - 1.0;
     vec2 turn = normalized(4.0 * abs(fract(coded + vec2(0.0, 0.75)) - 0.5) - 1.0);

@@ -12,7 +12,7 @@
 //   error   relative  |a-b| / max(|b|, 1e-3 of the mean luminance)     absolute  |a-b|
 //           angular   atan2(|a x b|, a.b), degrees                     exact     1 where a != b
 //           axial     the same between lines: b and -b are equal, so at most 90 degrees
-//   domain  unit: vectors of length 1   unit_or_zero: these, or 0   share: 0 to 1   positive: 0 or more   any
+//   domain  unit: vectors of length 1   unit_or_zero: these, or 0   ratio: 0 to 1   positive: 0 or more   any
 //   supported_by  which renderers produce it:
 //           both           both paths and the reference
 //           forward_only   forward+ and the reference: the G-buffer does not store it

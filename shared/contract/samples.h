@@ -41,7 +41,6 @@ CONTRACT_CONST(uint, GROUP_MANTISSA_BITS, 23);
 // each of the pixel's y and x. Rows have FURTHER_WIDTH texels. There are four storage images, the limit
 // that every device supports.
 // number  name  kind  contents
-// number  name  kind  what it holds
 // clang-format off
 #define SAMPLE_BINDINGS(X)                                                              \
     X(19, FURTHER_COUNT, storage_image, "R32_UINT, 1x1: number of listed groups")                         \

@@ -31,7 +31,7 @@ struct CaptureGroup {
 
     gpu::uint feature() const { return unlit ? images | gpu::CAPTURES_UNLIT : images; }
 };
-// `lit`: format of lit, over which surfaces may be blended. `most`: images in a group.
+// `lit`: format of lit, over which surfaces may be blended. `max`: images in a group.
 std::vector<CaptureGroup> captureGroups(std::span<const Channel> modes, VkFormat lit,
                                         std::size_t max = gpu::MAX_COLOR_ATTACHMENTS);
 

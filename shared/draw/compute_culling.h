@@ -19,7 +19,7 @@ class ComputeCulling {
 public:
     // Capacities.
     struct Sizes {
-        std::uint32_t items = 0, parts = 0, meshlets = 0, indices = 0;  // clusters: of all parts together
+        std::uint32_t items = 0, parts = 0, meshlets = 0, indices = 0;  // meshlets: of all parts together
         std::uint32_t draws = 0;
     };
     // `layout`: Layouts::culling. Geometry and layout must outlive it.

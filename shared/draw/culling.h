@@ -60,7 +60,7 @@ private:
         VisibleMeshlets shown;
         glm::dvec4 depth;  // view depth of an object-space point, m: dot(depth, (point, 1))
         std::uint32_t first_meshlet, meshlets;
-        std::uint32_t first;  // offset in order_ of its `clusters` entries
+        std::uint32_t first;  // offset in order_ of its `meshlets` entries
         std::uint32_t first_part, parts;
         std::uint32_t first_index;  // offset of its first index
         bool whole;                 // one meshlet, drawn from the scene's indices or not at all

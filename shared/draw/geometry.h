@@ -112,7 +112,7 @@ private:
     std::vector<Meshlet> meshlets_;
     MeshletTriangles meshlet_triangles_;
     std::vector<std::uint32_t> meshlet_indices_;  // their indices, as in the device's buffer
-    std::uint32_t first_meshlet_index_ = 0;       // offset of clustered_ in that buffer
+    std::uint32_t first_meshlet_index_ = 0;       // offset of meshlet_indices_ in that buffer
     std::vector<glm::vec3> kept_positions_;       // of blended primitives
     std::vector<std::uint32_t> kept_indices_;
     GpuBuffer positions_, attributes_, indices_, meshlet_buffer_;

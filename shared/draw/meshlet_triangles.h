@@ -55,7 +55,7 @@ public:
         return values_.size() * sizeof(float) + corner_indices_.size() + entries_.size() * sizeof(Entry);
     }
 
-    // Triangles whose dot(normal, eye) - eye_w * d is not below `least`. `eye`: relative to the meshlet's
+    // Triangles whose dot(normal, eye) - eye_w * d is not below `min`. `eye`: relative to the meshlet's
     // centre.
     TriangleSet facing(const Entry& entry, const glm::vec3& eye, float eye_w, float min) const;
 

@@ -50,12 +50,12 @@ void halve(std::span<const glm::vec3> centres, Triangles triangles, const Leaf& 
 }  // namespace
 
 std::vector<Meshlet> buildMeshlets(std::span<const glm::vec3> positions, std::span<std::uint32_t> indices) {
-    const std::vector<std::uint32_t> requested(indices.begin(), indices.end());
-    const std::size_t count = requested.size() / 3;
+    const std::vector<std::uint32_t> original(indices.begin(), indices.end());
+    const std::size_t count = original.size() / 3;
     std::vector<glm::vec3> centres(count);
     for (std::size_t i = 0; i < count; ++i) {
         Box box;
-        for (std::size_t corner = 0; corner < 3; ++corner) box.add(positions[requested[3 * i + corner]]);
+        for (std::size_t corner = 0; corner < 3; ++corner) box.add(positions[original[3 * i + corner]]);
         centres[i] = box.min * 0.5f + box.max * 0.5f;
     }
     std::vector<std::uint32_t> triangles(count);
@@ -67,7 +67,7 @@ std::vector<Meshlet> buildMeshlets(std::span<const glm::vec3> positions, std::sp
         const std::uint32_t first = next;
         for (const std::uint32_t triangle : part)
             for (std::size_t corner = 0; corner < 3; ++corner) {
-                const std::uint32_t index = requested[3 * std::size_t{triangle} + corner];
+                const std::uint32_t index = original[3 * std::size_t{triangle} + corner];
                 indices[next++] = index;
                 box.add(positions[index]);
             }

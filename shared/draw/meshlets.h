@@ -20,7 +20,7 @@ struct Meshlet {
 inline constexpr std::size_t maxMeshletTriangles = 64;
 
 // Recursively halves the triangles along the longest side of the box around their centres, down to
-// meshletTriangles per part. Reorders `indices`, three per triangle, all below positions.size(), so that
+// maxMeshletTriangles per part. Reorders `indices`, three per triangle, all below positions.size(), so that
 // meshlets are contiguous. Triangles keep their order within a meshlet, corners within a triangle.
 std::vector<Meshlet> buildMeshlets(std::span<const glm::vec3> positions, std::span<std::uint32_t> indices);
 

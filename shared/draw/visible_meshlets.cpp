@@ -20,11 +20,11 @@ namespace {
 // absolute values. The rounded matrix, three products and three sums contribute 2^-24 each. Doubled.
 constexpr double productError = 14.0 / (1 << 24);
 // The same for a window position, as a fraction of the image size: a division, a product and a sum.
-constexpr double placeRounding = 8.0 / (1 << 24);
+constexpr double positionRounding = 8.0 / (1 << 24);
 // For MeshletTriangles::facing(): four products of rounded factors and three sums.
 constexpr double facingError = 16.0 / (1 << 24);
 
-// Whether an interval contains the sample at `place`, in pixels from a pixel's left or upper edge, of any
+// Whether an interval contains the sample at `location`, in pixels from a pixel's left or upper edge, of any
 // pixel.
 bool holdsSample(double low, double high, double location) {
     return std::floor(high - location) >= std::ceil(low - location);
@@ -48,7 +48,7 @@ bool holdsSample(double low, double high, int samples, int shift) {
 }  // namespace
 
 double positionError(const SampleGrid& grid) {
-    return placeRounding * std::max(grid.width, grid.height);
+    return positionRounding * std::max(grid.width, grid.height);
 }
 
 VisibleMeshlets::VisibleMeshlets(const SampleGrid& grid, const glm::dmat4& clip_from_object,

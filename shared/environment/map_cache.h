@@ -24,7 +24,7 @@ std::optional<EnvironmentMaps> readMaps(const std::filesystem::path& file, std::
                                         const MapSides& sides);
 // Replaces the file atomically, also with concurrent writers. Returns whether it succeeded.
 bool writeMaps(const std::filesystem::path& file, std::uint64_t key, const EnvironmentMaps& maps);
-// Removes the oldest files until the folder has at most `most` bytes.
+// Removes the oldest files until the folder has at most `max` bytes.
 void limitMapCache(const std::filesystem::path& folder, std::uintmax_t max = mapCacheBytes);
 
 // Reads the maps from the folder, or computes and stores them. Empty `folder`: no cache. `wasCached`:

@@ -90,7 +90,7 @@ NodeMap atNodes(const OctahedralMap& map, int side);
 // Radiance in a map of side x side texels, each the mean over its directions.
 OctahedralMap resampled(const LatLong& light, int side);
 
-// Mip pyramid of the map: means of 2x2 texels weighted by solid angle, down to a side of `least`.
+// Mip pyramid of the map: means of 2x2 texels weighted by solid angle, down to a side of `min`.
 std::vector<OctahedralMap> pyramid(OctahedralMap map, int min);
 
 }  // namespace diptych

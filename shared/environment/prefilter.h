@@ -42,7 +42,7 @@ NodeMap filteredExhaustively(const OctahedralMap& source, double alpha, int side
 NodeMap irradiance(const OctahedralMap& source, int side, const std::vector<BrightTexel>& bright = {});
 
 // Levels of the specular lobe (contract/environment.h): GGX alpha, and nodes per side, odd, for a source
-// of `most` texels per side.
+// of `max` texels per side.
 double levelAlpha(std::size_t level);
 int levelSide(std::size_t level, int max);
 

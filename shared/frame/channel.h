@@ -8,14 +8,14 @@
 
 namespace diptych {
 
-// One enumerator for each row of DEBUG_MODES, by its name. Its value is the channel's number.
+// One enumerator for each row of DEBUG_MODES, by its name. Its value is the channel's index.
 #define DIPTYCH_DEBUG_CHANNEL(index, name, width, errorKind, kind, domain, supported_by, shows, stage, step, \
                               code, standard, compact, part, texels, related)                                \
     name = index,
 enum class Channel : int { DEBUG_MODES(DIPTYCH_DEBUG_CHANNEL) };
 #undef DIPTYCH_DEBUG_CHANNEL
 
-// The number in JSON, in shaders and on the command line.
+// The index in JSON, in shaders and on the command line.
 constexpr int channelIndex(Channel channel) {
     return static_cast<int>(channel);
 }

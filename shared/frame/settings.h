@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Everything that may change a pixel of a Frame. A Setting is a member of Settings and a row of
-// setting_rows.h. The row has every fact about it, for the command line, JSON, validity checks, ignored
+// setting_rows.h. The row has every property of it, for the command line, JSON, validity checks, ignored
 // settings, sweeps and the reference.
 #pragma once
 
@@ -149,7 +149,7 @@ struct DefaultOnly {
     bool (*unless)(const Settings&) = nullptr;  // condition that removes the restriction; nullptr: none
 };
 
-// All facts about one Setting. Values are text for Settings::set().
+// All properties of one Setting. Values are text for Settings::set().
 struct Field {
     std::string_view option;  // "--" + option on the command line; in JSON with _ instead of -
     std::string_view help;
@@ -163,7 +163,7 @@ struct Field {
     std::string_view one_for_reference = {};
 
     // Values in a sweep of speed against accuracy: "all" of an enumeration or switch, or a comma-separated
-    // list; for sizes, fractions of the given size. Empty for scene content, which the reference depends
+    // list; for sizes, fractions of the requested size. Empty for scene content, which the reference depends
     // on.
     std::string_view sweep = {};
     // Settings whose swept values are combined with this one's, comma-separated; "*": every other Setting.
@@ -208,10 +208,10 @@ struct SweepPair {
 };
 std::vector<SweepPair> sweepPairs();
 
-// Values of Field::sweep for Settings::set(), in order; sizes as fractions of `given`. Empty if not swept.
-// Throws std::runtime_error for an unknown option.
+// Values of Field::sweep for Settings::set(), in order; sizes as fractions of `requested`. Empty if not
+// swept. Throws std::runtime_error for an unknown option.
 std::vector<std::string> sweptValues(const Settings& requested, std::string_view option);
-// Converts a fraction such as "1/2" to a size relative to `given`, rounded and at least 1; returns other
+// Converts a fraction such as "1/2" to a size relative to `requested`, rounded and at least 1; returns other
 // words unchanged.
 std::string wordsFor(const Settings& requested, std::string_view option, const std::string& word);
 

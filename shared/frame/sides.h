@@ -32,7 +32,7 @@ struct SideSettings {
 
 // Parses "NAME=VALUE,..." of each drawn path; empty: none. A value may contain commas. Settings missing on
 // the other side are as in `common`. Settings that the other path ignores (gbuffer, prepass) are set in
-// `common`, so that both are judged by the same values. Throws std::runtime_error, one line, naming the
+// `common`, so that both are evaluated with the same values. Throws std::runtime_error, one line, naming the
 // input.
 SideSettings readSides(const std::array<std::string, 2>& requested, Settings& common);
 

@@ -34,7 +34,7 @@ void writeExr(const std::filesystem::path& file, const std::vector<ExrLayerView>
 // Reads all layers of every part, or of the part named `part`, over the display window; missing pixels are
 // 0. Supports tiles and scan lines and all compressions; of mip-mapped tiles, reads the largest level.
 // Rejects deep and subsampled pixels, parts with different display windows, and files that need more than
-// `most` bytes decoded. Throws std::runtime_error, one line that names file, part and fault.
+// `max` bytes decoded. Throws std::runtime_error, one line that names file, part and fault.
 ImageFile readExr(const std::filesystem::path& file);
 ImageFile readExr(std::span<const std::byte> bytes, const std::string& name,
                   std::uint64_t max = limits::imageBytes(), std::string_view part = {});

@@ -59,7 +59,7 @@ struct ExrHeader {
 
 // Reads the headers of every part, or of the part named `asked`. Throws std::runtime_error without the
 // file's name if a header is broken, has deep or subsampled pixels, or claims more than the file can
-// contain; if display windows differ; or if all images together need more than `most` bytes as float32
+// contain; if display windows differ; or if all images together need more than `max` bytes as float32
 // (plus uint32, where stored).
 ExrHeader readExrHeader(std::span<const std::byte> file, std::uint64_t max, std::string_view asked = {});
 

@@ -26,7 +26,7 @@ ImageName imageName(const std::filesystem::path& words);
 // Recognizes the format by the first bytes, not by the name. `part` selects one part of an EXR, whose
 // layers then have no part name as prefix. "" reads all parts, or the part that imageName() finds. The
 // file's bytes and the decoded image are in memory at the same time. Rejects files that need more than
-// `most` bytes decoded. EightBits::kept: 8-bit PNG and JPEG fill ImageLayer::coded. Throws
+// `max` bytes decoded. EightBits::kept: 8-bit PNG and JPEG fill ImageLayer::coded. Throws
 // std::runtime_error, one line that names file and fault.
 ImageFile readImage(const std::filesystem::path& file, std::string_view part = {});
 ImageFile readImage(std::span<const std::byte> bytes, const std::string& name, std::string_view part = {},

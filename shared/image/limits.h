@@ -38,7 +38,7 @@ struct ImageSize {
     std::int64_t bytes_per_pixel = 0;  // during decoding
 };
 
-// Throws std::runtime_error if an image of this size exceeds the limits or needs more than `most` bytes:
+// Throws std::runtime_error if an image of this size exceeds the limits or needs more than `max` bytes:
 // "claims 100000 x 4 pixels; each side must be 1 to 65536".
 void checkImageSize(std::int64_t width, std::int64_t height, std::int64_t bytesPerPixel, std::uint64_t max);
 

@@ -22,7 +22,7 @@ struct PfmImage {
 
 // Reads both byte orders, given by the sign of the scale. Multiplies values by the scale's magnitude,
 // whose meaning the format leaves open; a scale of 1 preserves all bits. Rejects files that need more than
-// `most` bytes decoded. Throws std::runtime_error, one line that names file and fault.
+// `max` bytes decoded. Throws std::runtime_error, one line that names file and fault.
 PfmImage readPfm(std::span<const std::byte> bytes, const std::string& name,
                  std::uint64_t max = limits::imageBytes());
 

@@ -41,7 +41,7 @@ struct PngImage {
 enum class EightBits { decoded, kept };
 
 // Reads a PNG. An interlaced file needs additional memory for all stored rows. Rejects files that need
-// more than `most` bytes decoded. Throws std::runtime_error, one line that names file and fault.
+// more than `max` bytes decoded. Throws std::runtime_error, one line that names file and fault.
 PngImage readPngImage(std::span<const std::byte> bytes, const std::string& name,
                       std::uint64_t max = limits::imageBytes(), EightBits eight = EightBits::decoded);
 

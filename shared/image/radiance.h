@@ -18,7 +18,7 @@ namespace diptych {
 
 // RGB, linear, row 0 on top for all eight orientations. Values are divided by EXPOSURE and COLORCORR,
 // which gives the measured radiance. They are converted if PRIMARIES are not Rec. 709, the default. Reads
-// plain pixels and both run-length codes. Rejects XYZE and files that need more than `most` bytes decoded.
+// plain pixels and both run-length codes. Rejects XYZE and files that need more than `max` bytes decoded.
 // Throws std::runtime_error, one line that names file and fault.
 struct HdrImage {
     Image image;

@@ -61,7 +61,7 @@ int ignoreWarning(TIFF*, void*, const char*, const char*, va_list) {
 
 using OpenTiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 
-// libtiff allocates no block larger than `most`, whatever the file claims.
+// libtiff allocates no block larger than `max`, whatever the file claims.
 OpenTiff openTiff(TiffBytes& file, std::uint64_t max) {
     const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
                                                                                    TIFFOpenOptionsFree);
@@ -206,7 +206,7 @@ public:
         samples_ = layout.planes ? 1 : layout.components;
     }
 
-    // Returns whether all could be read from a file of `held` bytes; each may take `most` bytes.
+    // Returns whether all could be read from a file of `held` bytes; each may take `max` bytes.
     bool read(std::uint64_t max, std::uint64_t held) {
         if (width_ < 1 || height_ < 1 || width_ > limits::image_side || height_ > limits::image_side)
             return false;

@@ -27,7 +27,7 @@ bool isTiff(std::span<const std::byte> bytes);
 
 // Reads the first page: grey or RGB, with or without alpha, unsigned integers of 8, 16 or 32 bits or
 // floats of 16 or 32; strips or tiles, interleaved or planar; uncompressed, LZW, Deflate or PackBits.
-// Rejects files that need more than `most` bytes decoded. Throws std::runtime_error, one line that names
+// Rejects files that need more than `max` bytes decoded. Throws std::runtime_error, one line that names
 // file and fault.
 TiffImage readTiff(std::span<const std::byte> bytes, const std::string& name,
                    std::uint64_t max = limits::imageBytes());

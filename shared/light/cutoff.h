@@ -12,8 +12,8 @@
 namespace diptych {
 
 // Distance, m, at which a white Lambertian surface facing the light has the luma-weighted radiance `cutoff`,
-// W/(sr m^2): sqrt(intensity / (pi cutoff)). `intensity` is the light's colour, weighted by luma, times its
-// intensity, W/sr; for area lights, of its radiance times its area.
+// W/(sr m^2): sqrt(I / (pi cutoff)). I is the luma of the light's colour times its intensity, W/sr; for area
+// lights, of its radiance times its area.
 double cutoffRange(const Light& light, double cutoff);
 
 // The lights, with a range for those without one. `cutoff` 0: unchanged.

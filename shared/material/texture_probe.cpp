@@ -46,14 +46,14 @@ std::vector<float> sampled(Device& device, const TextureImage& content, bool srg
         const TextureFormat format = textureFormat(device, image, colors, precision);
         return uploadTexture(device, uploader, MipChain(image, colors, format.texels), format.format);
     };
-    const GpuImage positionsImage = upload(where, true), imageImage = upload(content, srgb);
+    const GpuImage positionsImage = upload(where, true), contentImage = upload(content, srgb);
     uploader.flush();
     const OwnedSampler fetch = makeNearestSampler(device),
                        sampler = makeSampler(device, probeSampler(linear));
     const OwnedDescriptorSetLayout setLayout = makeSetLayout(device, probeTypes);
     DescriptorSets sets(device, setLayout, probeTypes, 1);
     sets.image(0, 0, positionsImage.view(), fetch, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    sets.image(0, 1, imageImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    sets.image(0, 1, contentImage.view(), sampler, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 
     const OwnedPipelineLayout layout =
         makePipelineLayout(device, std::array<VkDescriptorSetLayout, 1>{setLayout});
@@ -88,7 +88,7 @@ TextureImage noise(std::uint32_t& state) {
     TextureImage image{"noise", noiseSide, noiseSide, {}};
     for (std::uint32_t band = 0; band < contrasts.size(); ++band)
         for (int block = 0; block < noiseSide / 8; ++block) {
-            // A block of 8 x 8 texels; `least` is its darkest code.
+            // A block of 8 x 8 texels; `min` is its darkest code.
             const std::uint32_t min = random() % (257 - contrasts[band]);
             for (int i = 0; i < 8 * 8 * 4; ++i)
                 image.rgba.push_back(static_cast<std::uint8_t>(min + random() % contrasts[band]));

@@ -42,7 +42,7 @@ std::vector<Siblings> siblingsOf(const Clipmap& clipmap, std::size_t level, cons
     return all;
 }
 
-// Pages per level, reduced to `most`; excludes the whole scene's page.
+// Pages per level, reduced to `max`; excludes the whole scene's page.
 std::vector<Level> fitting(const Clipmap& clipmap, std::vector<Level> levels, std::size_t max) {
     std::size_t count = 0;
     for (const Level& level : levels) count += level.size();

@@ -70,7 +70,7 @@ public:
         return json_->template get<double>();
     }
     double numberOr(const char* key, double fallback) const { return has(key) ? at(key).number() : fallback; }
-    // An integer from `least` to `most`.
+    // An integer from `min` to `max`.
     template <class Whole>
     Whole whole(Whole min, Whole max) const {
         const bool fits = json_->is_number_unsigned()

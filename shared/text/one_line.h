@@ -21,7 +21,7 @@ Character characterAt(std::string_view text);
 // characters (Unicode Standard Annex 9, 2).
 bool isControl(char32_t code);
 
-// For one line of a message. Controls and invalid UTF-8 become '?'. Text longer than `most` bytes is cut
+// For one line of a message. Controls and invalid UTF-8 become '?'. Text longer than `max` bytes is cut
 // between characters and ends in "...".
 std::string oneLine(std::string_view text, std::size_t max = 200);
 

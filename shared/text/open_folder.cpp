@@ -97,7 +97,7 @@ int stepDown(int file, const fs::path& names) {
     return file;
 }
 
-// Held folders by their absolute paths. Never destroyed: another thread may write while the program exits.
+// Pinned folders by their absolute paths. Never destroyed: another thread may write while the program exits.
 struct PinnedFolders {
     std::mutex mutex;
     std::multimap<fs::path, int> files;
@@ -115,7 +115,7 @@ fs::path keyOf(const fs::path& folder) {
     return path.has_filename() ? path : path.parent_path();
 }
 
-// The innermost held folder that is `path` or contains it; null if there is none. Under the mutex.
+// The innermost pinned folder that is `path` or contains it; null if there is none. Under the mutex.
 const std::pair<const fs::path, int>* pinnedAncestor(const fs::path& path) {
     const auto& files = pinnedFolders().files;
     for (fs::path outer = path; outer.has_relative_path(); outer = outer.parent_path())

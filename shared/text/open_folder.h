@@ -57,7 +57,7 @@ public:
     // Whether the name still refers to the file or folder that was seen.
     bool has(const std::filesystem::path& name, const struct stat& seen) const;
     std::vector<std::string> names() const;
-    // Reads a regular file. Throws std::runtime_error if it is unreadable or larger than `most` bytes.
+    // Reads a regular file. Throws std::runtime_error if it is unreadable or larger than `max` bytes.
     std::string read(const std::filesystem::path& name, std::size_t max) const;
     // Opens a file; a link fails. Returns a descriptor; -1 with errno set on failure.
     int open(const std::filesystem::path& name, int flags, mode_t mode = 0) const;

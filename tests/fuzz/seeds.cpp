@@ -112,17 +112,17 @@ int copySeeds(const fs::path& assets, const fs::path& out) {
 
 }  // namespace diptych::fuzz
 
-int main(int count, char** text) {
+int main(int count, char** arguments) {
     namespace fs = std::filesystem;
     using namespace diptych::fuzz;
     if (count < 2) return std::fprintf(stderr, "fuzz_seeds OUT [ASSETS]\n"), 2;
-    fs::remove_all(text[1]);
-    writeImageSeeds(text[1]);
-    writeExrSeeds(text[1]);
-    writeGltfSeeds(text[1]);
-    writeTextSeeds(text[1]);
-    if (count > 2 && fs::is_directory(text[2]))
-        std::printf("seeds: built-in ones and %d of the assets\n", copySeeds(text[2], text[1]));
+    fs::remove_all(arguments[1]);
+    writeImageSeeds(arguments[1]);
+    writeExrSeeds(arguments[1]);
+    writeGltfSeeds(arguments[1]);
+    writeTextSeeds(arguments[1]);
+    if (count > 2 && fs::is_directory(arguments[2]))
+        std::printf("seeds: built-in ones and %d of the assets\n", copySeeds(arguments[2], arguments[1]));
     else
         std::printf("seeds: built-in ones, no assets\n");
     return 0;

@@ -23,7 +23,7 @@ bool isAmong(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::count(names, name) > 0;
 }
 
-// The shares and the unexplained part add up to the difference, also for FLIP, and so do their maps at
+// The contributions and the unexplained part add up to the difference, also for FLIP, and so do their maps at
 // every pixel.
 bool addsUp(const Explanation& e, const Image& baseline, const Image& test) {
     double all = e.unexplained, flip = e.flip_unexplained;
@@ -97,7 +97,7 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
     EXPECT_EQ(device().validationMessages(), 0u) << device().firstValidationMessage();
 }
 
-// The light with the fault has the largest part of its causes' shares.
+// The light with the fault has the largest part of its causes' contributions.
 TEST(ExplainFaults, TheLightIsNamedToo) {
     for (const InjectedFault& fault : injectedFaults()) {
         if (!fault.of_first_light) continue;

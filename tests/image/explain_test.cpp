@@ -104,7 +104,7 @@ double sumOfFractions(const Explanation& e) {
                            [](double sum, const Cause& cause) { return sum + cause.contribution; });
 }
 
-// The maps sum to the difference at each pixel, and each map's mean is its share.
+// The maps sum to the difference at each pixel, and each map's mean is its contribution.
 void expectMapsAddUp(const Explanation& e, const Frame& baseline, const Frame& test) {
     const Image &a = baseline.channels.at(Channel::lit), &b = test.channels.at(Channel::lit);
     const auto mean = [](const Image& map) {

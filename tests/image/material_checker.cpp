@@ -157,10 +157,10 @@ void evaluate(CheckedValues& evaluated, const float* got, const std::vector<doub
     for (std::size_t c = 0; c < expected.size(); ++c) {
         ++evaluated.values;
         const double error = std::abs(double{got[c]} - expected[c]);
-        const double fraction = error == 0 ? 0 : error / std::max(allowed, 1e-12);
-        if (!(fraction <= 1)) ++evaluated.wrong;
-        if (fraction <= evaluated.worst) continue;
-        evaluated.worst = fraction;
+        const double ratio = error == 0 ? 0 : error / std::max(allowed, 1e-12);
+        if (!(ratio <= 1)) ++evaluated.wrong;
+        if (ratio <= evaluated.worst) continue;
+        evaluated.worst = ratio;
         evaluated.worst_at = fmt::format("{}, component {}: {}, not {}", where, c, got[c], expected[c]);
     }
 }

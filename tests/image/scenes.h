@@ -236,7 +236,7 @@ inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = d
     return unequalPixels(a, b, bits ? 0 : gpuUlps);
 }
 
-// Every common channel must be the same, and there must be at least `least` of them.
+// Every common channel must be the same, and there must be at least `min` of them.
 inline void expectSameChannels(const Frame& a, const Frame& b, std::size_t min = 14) {
     std::size_t compared = 0;
     for (const auto& [mode, image] : a.channels) {

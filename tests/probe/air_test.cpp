@@ -273,7 +273,7 @@ TEST(Air, AMarchAlmostAlongTheHorizonComesToTheIntegral) {
         std::vector<reference::Hazed> truth;
         for (const double height : {0.0, 1.0, 2.0, 4.0})
             for (const double fall : {0.2, 0.5, 1.0, 1.5}) {
-                // Slope for which a ray accumulates `most` while density grows by e^fall.
+                // Slope for which a ray accumulates `max` while density grows by e^fall.
                 const double up = -std::exp(-height) * std::expm1(fall) * scale / max;
                 const glm::dvec3 away(glm::vec3(std::sqrt(1 - up * up), up, 0));
                 const Ray ray{double{static_cast<float>(height * scale)}, away, endless};

@@ -38,7 +38,7 @@ inline std::vector<MomentResult> seenThrough(gpu::uint shadows, const std::vecto
 // The same, for given moments.
 struct StoredMoments {
     std::array<float, 4> moments;
-    MomentFilter filter;  // near, far and share are not read
+    MomentFilter filter;  // near, far and fraction are not read
 };
 inline std::vector<float> seenThrough(gpu::uint shadows, const std::vector<StoredMoments>& stored) {
     std::vector<float> in;

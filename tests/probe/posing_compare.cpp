@@ -263,8 +263,8 @@ private:
             const double determinant = std::abs(glm::determinant(axes));
             min = std::min(min, determinant);
             const glm::dvec3 turned = cofactorsOf(axes) * rest;
-            const double fraction = mover.weight / (largest * determinant);
-            off += fraction * (rounded * length + glm::length(turned) * 2 * rounded / determinant);
+            const double weight = mover.weight / (largest * determinant);
+            off += weight * (rounded * length + glm::length(turned) * 2 * rounded / determinant);
             sum += mover.weight * (glm::transpose(glm::inverse(mover.axes)) * rest);
         }
         const double size = glm::length(sum);

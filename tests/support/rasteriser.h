@@ -143,8 +143,8 @@ private:
     glm::i64vec2 sample(int s) const {
         if (grid_.samples == 1) return {step / 2, step / 2};
         const gpu::uint low = grid_.samples == 4 ? gpu::SAMPLE_LOCATIONS_4 : gpu::SAMPLE_LOCATIONS_8_LOW;
-        const gpu::uint index = ((s < 4 ? low : gpu::SAMPLE_LOCATIONS_8_HIGH) >> (8 * (s % 4))) & 255u;
-        return {(index & 15u) * step / 16, (index >> 4) * step / 16};
+        const gpu::uint location = ((s < 4 ? low : gpu::SAMPLE_LOCATIONS_8_HIGH) >> (8 * (s % 4))) & 255u;
+        return {(location & 15u) * step / 16, (location >> 4) * step / 16};
     }
     SampleGrid grid_;
     bool truncates_, reversed_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// diptych explain: causes with their shares, as text, JSON and page.
+// diptych explain: causes with their contributions, as text, JSON and page.
 #include "shared/image/exr.h"
 #include "tests/tool/run.h"
 #include "tests/tool/sweep.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all commands do alike: help, bad input, outputs, interruption, documents. A row for each command.
+// Behaviour common to all commands: help, bad input, outputs, interruption, documents. A row for each command.
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 #include "tests/tool/sweep.h"
@@ -125,7 +125,7 @@ TEST_P(WritingCommand, LeavesFilesOfOthersAlone) {
 }
 
 // A signal leaves a whole output or none. Then the same command ends, and nothing of unfinished work is left.
-// What it prints is a document that says its schema.
+// Its output is a document that states its schema.
 TEST_P(WritingCommand, GoesOnAfterAnInterruption) {
     std::vector<std::string> words{row_.name, "-q", "--json", "-o", "o"};
     std::istringstream needed(row_.words);

@@ -164,7 +164,7 @@ TEST(Kills, LeaveNothingThatTheNextRunDoesNotRemove) {
     const Folder folder;
     fs::create_directories(folder / "tmp");
     const char* const earlier = std::getenv("TMPDIR");
-    const std::string requested = earlier ? earlier : "";
+    const std::string own_folder = earlier ? earlier : "";
     ::setenv("TMPDIR", (folder / "tmp").c_str(), 1);
     std::vector<std::vector<std::string>> commands{
         {"compare", "builtin:triangle", "--channels", "lit"},
@@ -231,10 +231,10 @@ TEST(Kills, LeaveNothingThatTheNextRunDoesNotRemove) {
                 << "round " << round << " by " << signal << " left " << entry.path();
         EXPECT_TRUE(fs::is_empty(folder / "tmp")) << "round " << round << " by " << signal;
     }
-    if (requested.empty())
+    if (own_folder.empty())
         ::unsetenv("TMPDIR");
     else
-        ::setenv("TMPDIR", requested.c_str(), 1);
+        ::setenv("TMPDIR", own_folder.c_str(), 1);
     EXPECT_GT(killed, 0);
     RecordProperty("programs", runs);
     RecordProperty("killed", killed);

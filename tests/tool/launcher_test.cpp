@@ -150,8 +150,8 @@ TEST_F(Launcher, AFailedBuildIsShownAndIsExitTwo) {
 }
 
 TEST_F(Launcher, TestBuildsEverythingAndHandsOnToCtest) {
-    const auto says = [&](const std::string& text, const std::string& told) {
-        const Ran ran = run(text);
+    const auto says = [&](const std::string& arguments, const std::string& told) {
+        const Ran ran = run(arguments);
         EXPECT_EQ(ran.code, 8);
         EXPECT_EQ(ran.out.find("ctest --test-dir " + build()), 0u) << ran.out;
         EXPECT_TRUE(ran.out.ends_with(told)) << ran.out;

@@ -65,12 +65,12 @@ struct UsedByTool {
 };
 
 // Resources of the tool, run in a process of its own.
-UsedByTool runAlone(const Folder& folder, const std::string& text) {
+UsedByTool runAlone(const Folder& folder, const std::string& arguments) {
     const auto start = std::chrono::steady_clock::now();
     const pid_t process = ::fork();
     if (process == 0) {
         ::execl("/bin/sh", "sh", "-c",
-                ("cd '" + folder.path().string() + "' && exec '" DIPTYCH_PROGRAM "' " + text).c_str(),
+                ("cd '" + folder.path().string() + "' && exec '" DIPTYCH_PROGRAM "' " + arguments).c_str(),
                 nullptr);
         ::_exit(127);
     }

@@ -255,7 +255,7 @@ TEST(ReferenceTool, KilledItGoesOnAsWell) {
     });
 }
 
-// Kills the tool once it has stored `least` tiles in a file that is not among `before`. Returns that file,
+// Kills the tool once it has stored `min` tiles in a file that is not among `before`. Returns that file,
 // or an empty path if the tool ended first.
 fs::path killedAfter(Running& tool, const Folder& folder, const std::vector<fs::path>& before,
                      std::size_t min) {
@@ -387,7 +387,7 @@ TEST(ReferenceTool, AStoredReferenceEvaluatesAsOneDrawnNow) {
         EXPECT_EQ(a["comparisons"][row]["channels"], b["comparisons"][row]["channels"]);
 }
 
-// A sampled reference is judged with each pixel's uncertainty, which is not a channel of the image.
+// A sampled reference is evaluated with each pixel's uncertainty, which is not a channel of the image.
 TEST(ReferenceTool, AStoredReferenceKeepsItsUncertainty) {
     const Folder folder;
     Image sky(8, 4, 3, 0.2f);

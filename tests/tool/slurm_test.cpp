@@ -35,7 +35,7 @@ public:
                         "export SLURM_CONF='" + (folder_ / "cluster/slurm.conf").string() + "'; " + command,
                         folder_ / "work");
     }
-    Ran tool(const std::string& text) const { return shell("'" DIPTYCH_PROGRAM "' " + text); }
+    Ran tool(const std::string& arguments) const { return shell("'" DIPTYCH_PROGRAM "' " + arguments); }
     // Waits until no job is left. Tasks that Slurm requeued start at once instead of after two minutes.
     bool idle() const {
         return soon([&] {

@@ -38,8 +38,8 @@ glm::dvec3 meanFresnel(const glm::dvec3& f0, double f90) {
     double weight = 0;
     for (int i = 0; i <= steps; ++i) {
         const double mu = static_cast<double>(i) / steps;
-        const double fraction = i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2;
-        weight += fraction * 2 * mu * std::pow(1 - mu, 5) / (3.0 * steps);
+        const double simpson = i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2;
+        weight += simpson * 2 * mu * std::pow(1 - mu, 5) / (3.0 * steps);
     }
     return f0 + (glm::dvec3(f90) - f0) * weight;
 }
@@ -54,10 +54,10 @@ glm::dvec3 filmTowardsViewer(const Surface& s) {
 
 }  // namespace
 
-Compensation compensationOf(const Surface& requested, Multiscatter multiscatter) {
+Compensation compensationOf(const Surface& original, Multiscatter multiscatter) {
     if (multiscatter == Multiscatter::off) return {};
     if (multiscatter == Multiscatter::walk) return {.base = glm::dvec3(1)};
-    const Surface surface = isotropic(withoutFilm(requested));
+    const Surface surface = isotropic(withoutFilm(original));
     Surface white = surface, metal = surface, dielectric = surface;
     white.albedo = glm::dvec3(1);
     white.metallic = metal.metallic = 1;
@@ -77,8 +77,7 @@ Compensation compensationOf(const Surface& requested, Multiscatter multiscatter)
         result.dielectric = of_layer.factor;
         const glm::dvec3 layer = single * of_layer.factor + of_layer.between;
         if (surface.base_layer == BaseLayer::max)
-            result.base =
-                1.0 - lostToLayer(surface.base_layer, glm::max(layer, filmTowardsViewer(requested)));
+            result.base = 1.0 - lostToLayer(surface.base_layer, glm::max(layer, filmTowardsViewer(original)));
     }
     result.between = of_layer.between * (1 - surface.metallic) + of_metal.between * surface.metallic;
     return result;

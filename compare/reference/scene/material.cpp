@@ -257,7 +257,7 @@ double Materials::thicknessAt(const Hit& hit, const PixelRay& ray) const {
     return double{m.thickness} * lookUp<&Material::thickness_texture>(m, hit, &ray).g * scale;
 }
 
-// KHR_materials_transmission: share from red.
+// KHR_materials_transmission: fraction from red.
 void Materials::transmit(const Hit& hit, const PixelRay& ray, Surface& s) const {
     const Material& m = material(hit);
     s.transmission = double{m.transmission} * lookUp<&Material::transmission_texture>(m, hit, &ray).r;

@@ -144,12 +144,12 @@ glm::dvec4 Textures::operator()(const Texture& texture, bool srgb, const Footpri
     constexpr double min = 8, max = 64;
     const double across = std::abs(x.x * y.y - x.y * y.x) / longest;
     // Spacing of the points, in texels of level 0.
-    const double fraction = std::max(across / min, longest / max);
-    const auto places = [&](const glm::dvec2& side) {
-        return static_cast<int>(std::clamp(std::ceil(glm::length(side) / fraction), min, max));
+    const double spacing = std::max(across / min, longest / max);
+    const auto points = [&](const glm::dvec2& side) {
+        return static_cast<int>(std::clamp(std::ceil(glm::length(side) / spacing), min, max));
     };
-    const int along_x = places(x), along_y = places(y);
-    const double exact = std::clamp(std::log2(std::max(fraction, 1.0)), 0.0, levels.levels() - 1.0);
+    const int along_x = points(x), along_y = points(y);
+    const double exact = std::clamp(std::log2(std::max(spacing, 1.0)), 0.0, levels.levels() - 1.0);
     const int level = static_cast<int>(exact);
     glm::dvec4 sum(0);
     for (int j = 0; j < along_y; ++j)

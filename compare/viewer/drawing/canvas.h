@@ -41,7 +41,7 @@ struct Placement {
 
 // A panel's position in the window; `canvas` is the part of the window for images.
 struct PanelRect {
-    std::size_t panel = 0;  // index into Shown::panels; 2: the difference
+    std::size_t panel = 0;  // index into DrawnView::panels; 2: the difference
     CanvasRect rect;        // visible part of the panel, in the window
     Placement placement;
 };

@@ -322,7 +322,7 @@ private:
 
     // ---- results beside a still image -----------------------------------------------------------------
 
-    // The image shown, with the present facts of the paths.
+    // The drawn view, with the current properties of the paths.
     std::shared_ptr<const DrawnView> shownWithProperties() const {
         auto next = std::make_shared<DrawnView>(*box_.shown);
         next->paths = paths_;
@@ -461,7 +461,7 @@ private:
     const DrawingOptions& options_;
     Mailbox& box_;
     DrawRequest request_;  // the current request
-    Subject both_;         // the same, independent of the right panel's path
+    Subject both_;         // its subject, independent of the right panel's path
     // Deferred, forward+, of `drawn_`; those of a verdict point into its report.
     std::array<std::shared_ptr<const Frame>, 2> frames_;
     std::optional<Subject> drawn_;  // still and at full size

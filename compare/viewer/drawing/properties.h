@@ -11,7 +11,7 @@ namespace diptych::viewer {
 // `name`: the scene on the command line.
 SceneProperties propertiesOf(const Scene& scene, const std::string& name);
 
-// Updates the facts by a new Frame. `timed`: also its times.
+// Updates `properties` from a new Frame. `timed`: also its times.
 void takeProperties(const Frame& frame, bool timed, PathProperties& properties);
 
 }  // namespace diptych::viewer

@@ -19,7 +19,7 @@ void cycle(Value& value, std::initializer_list<Value> values) {
     value = at == values.end() || at + 1 == values.end() ? *values.begin() : *(at + 1);
 }
 
-// Steps through the channels above 9, by number.
+// Steps through the channels above 9, by index.
 void nextChannel(ViewOptions& view_options, int step) {
     std::vector<Channel> beyond;
     for (const DebugMode& mode : debugModes())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn over the images: panel titles, the wipe line, colour legends, pixel values, lights and the
+// Overlays of the shown images: panel titles, the wipe line, colour legends, pixel values, lights and the
 // chosen pixel.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace diptych::viewer {
 
-// Draws them all over the shown images, which must exist. `scale`: of the interface.
+// Draws all overlays over the shown images, which must exist. `scale`: of the interface.
 void drawOverlays(const InterfaceState& state, const Contents& contents, const CanvasRect& canvas,
                   const std::vector<PanelRect>& panel_rects, float scale);
 

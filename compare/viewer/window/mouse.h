@@ -16,7 +16,7 @@ namespace diptych::viewer {
 class Mouse {
 public:
     // Changes `state`, the pixel under the cursor in `contents`, and `camera`, after which it calls
-    // `moved`. `say` receives a line for the log, `tell` one also for the user.
+    // `moved`. `log` receives a line for the log, `tell` one also for the user.
     struct Calls {
         std::function<void()> moved;
         std::function<void(const std::string&)> log, tell;

@@ -15,7 +15,7 @@ namespace diptych::viewer {
 
 class Screen {
 public:
-    // `say` receives a line if the window's device is lost. The window must outlive this.
+    // `report` receives a line if the window's device is lost. The window must outlive this.
     Screen(const Window& window, bool validate, std::function<void(const std::string&)> report);
 
     double scale() const { return scale_; }  // of texts

@@ -111,7 +111,7 @@ AirRay airRay(const Haze h, const float height, const vec3 away, const float rea
     return ray;
 }
 
-// Distance along the ray at which a `share` of the steps ends. Steps are uniform in the square root of the
+// Distance along the ray at which a `fraction` of the steps ends. Steps are uniform in the square root of the
 // mean air's remaining attenuation; `lost` is the whole ray's. This puts more steps far away, where the
 // air is thinner than its mean or transmits some colours better.
 float distanceAt(const AirRay ray, const Haze h, const float fraction, const float lost) {

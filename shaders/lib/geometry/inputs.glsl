@@ -6,7 +6,7 @@
 // input is extrapolated beyond its triangle. v_world is not: only its derivatives are used, and the shaded
 // locations of neighbouring pixels are not one pixel apart.
 // Vulkan guarantees 16 locations of four components. All inputs together use these, so the first UV set
-// and the turn of maps take the fourth components of others.
+// and the rotation of maps take the fourth components of others.
 #ifndef INPUTS_GLSL
 #define INPUTS_GLSL
 
@@ -25,8 +25,8 @@ const float MIRRORED_ROTATION = 1024.0;
 #define FOURTH(at) layout(location = at, component = 3) DIRECTION
 
 INPUT(0) vec3 v_normal;
-// feature_turned_maps: the tangent of their maps along tangent and bitangent. Times MIRRORED_ROTATION if
-// their bitangent has the other sign, so that interpolation keeps the two apart.
+// For layers in feature_turned_maps: the tangent of their maps, along tangent and bitangent. Times
+// MIRRORED_ROTATION if their bitangent has the other sign, so that interpolation keeps the two apart.
 FOURTH(0) float v_rotation_cosine;
 INPUT(1) vec4 v_tangent;
 INPUT(2) vec3 v_world;  // world axes, camera as origin, m; only for the triangle's normal

@@ -132,7 +132,7 @@ AreaLobes areaLobes(const vec3 from_base, const vec3 from_lobe, const vec3 from_
 
 // `plain`, `lobe`: the light's form factors (ltc.glsl) under the cosine and under the specular lobe. A
 // small light reflects exactly the BRDF at its mean direction: the BRDF replaces the fitted density there.
-// A light that fills the lobe reflects the table's albedo. The fourth root of the covered share blends the
+// A light that fills the lobe reflects the table's albedo. The fourth root of the covered fraction blends the
 // two; it fits the lights of tests/probe/area_error_test.cpp best.
 AreaLobes fromFactors(const AreaView a, const vec3 plain, const vec3 lobe, const vec3 radiance) {
     mat3 world = transpose(a.surface);

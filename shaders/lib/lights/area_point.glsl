@@ -98,7 +98,7 @@ Lobes reflectPoint(const Brdf b, const vec3 n, const vec3 v, const AreaPoint p, 
     float sum2 = dot(sum, sum);
     vec3 fresnel = b.f0 + (b.f90 - b.f0) * schlickWeight(0.5 * sqrt(sum2));
     // A light of tangent t in the centre of a round lobe covers t^2 / (t^2 + 4 alpha^2) of it. Lowering
-    // the peak by that share makes a mirror show a large light at its own radiance. At grazing angles the
+    // the peak by that fraction makes a mirror show a large light at its own radiance. At grazing angles the
     // lobe is narrower by n.v.
     vec2 tangent = 0.5 * p.half_size * to_point;
     float width2 = b.alpha2 * b.n_dot_v;

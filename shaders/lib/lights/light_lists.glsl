@@ -159,7 +159,7 @@ Light directionalAt(const uint entry) {
 // Iterates over a list's area lights one by one, because evaluating the padding of the last entry would
 // be too expensive.
 struct AreaLightIterator {
-    uint position, end;  // in the list: entries times list_width
+    uint position, end;  // indices of lights in the list: entries times feature_list_width
     uint light;          // index in the light buffer
     uint area_index;     // index among the area lights; areaCount() for the null light
     bool more;

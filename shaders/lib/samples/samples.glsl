@@ -13,8 +13,8 @@ bool multisampled() { return feature_samples > 1; }
 // Location of sample i from the pixel's upper left corner, pixels.
 vec2 sampleLocation(const uint i) {
     uint low = feature_samples == 4 ? SAMPLE_LOCATIONS_4 : SAMPLE_LOCATIONS_8_LOW;
-    uint index = (i < 4 ? low : SAMPLE_LOCATIONS_8_HIGH) >> (8 * (i & 3u));
-    return vec2(index & 15u, index >> 4 & 15u) / 16.0;
+    uint location = (i < 4 ? low : SAMPLE_LOCATIONS_8_HIGH) >> (8 * (i & 3u));
+    return vec2(location & 15u, location >> 4 & 15u) / 16.0;
 }
 
 // Mean location of the samples of a mask; the pixel's centre if it is empty.

@@ -15,7 +15,7 @@ float schlickWeight(const float v_dot_h) {
 // KHR_materials_iridescence: a thin film in air replaces the Fresnel terms of the material below it (Belcour
 // and Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence", as
 // the extension simplifies it: Schlick's terms, no polarisation, two orders of interference). The
-// extension's guards 1e-4 and 1e-5 are left out, so that a film without thickness is the material.
+// extension's guards 1e-4 and 1e-5 are omitted, so that a film without thickness is the material.
 
 // One material below the film.
 struct FilmBase {

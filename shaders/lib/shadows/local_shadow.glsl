@@ -28,8 +28,8 @@ LocalFace localFaceAt(const uint index, const uint face) {
     return LOCAL_FACE_OF_TEXEL(a);
 }
 
-// Visibility, 0 to 1, of the light at index `index` of LocalShadow[], at `light_position`. 0 if the
-// triangle faces away from it.
+// Visibility, 0 to 1, of the light of LocalShadow[index], at `light_position`. 0 if the triangle faces away
+// from it.
 float visibilityOf(Surface s, const uint index, const vec3 light_position) {
     LocalShadow light = localShadowAt(index);
     vec3 from_light = s.position - light_position;
@@ -47,7 +47,7 @@ float visibilityOf(Surface s, const uint index, const vec3 light_position) {
 // Iterates one by one over the shadow-casting lights of a segment of a list: the first ones, with indices
 // below `light_end`. Evaluating an entry's other lights as well would be too expensive.
 struct CasterIterator {
-    uint position, end;  // in the list: entries times list_width
+    uint position, end;  // indices of lights in the list: entries times feature_list_width
     uint light;
     uint light_end;
     bool more;

@@ -13,7 +13,7 @@ template <std::size_t N>
 using Point = std::array<double, N>;
 
 // A local minimum of f near `start`; the initial simplex has edges of `step`. Stops when the values at the
-// corners agree to `relative` of the smallest, or after `most` steps.
+// corners agree to `relative` of the smallest, or after `max` steps.
 template <std::size_t N, class F>
 Point<N> nelderMead(const F& f, const Point<N>& start, double step, double relative, int max) {
     struct Corner {

@@ -24,7 +24,7 @@ namespace {
 // A number after the name, as in "spheres?lights=64".
 struct Parameter {
     std::string_view name;
-    std::uint32_t default_value, max;  // default and largest value
+    std::uint32_t default_value, max;
 };
 using Numbers = std::span<const std::uint32_t>;  // one per parameter, in order
 
@@ -147,7 +147,7 @@ std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, 
     if (row.makeWith == nullptr) fail("builtin:" + name, fmt::format("{} takes no parameters", row.name));
     std::vector<std::uint32_t> numbers;
     for (const Parameter& parameter : row.parameters) numbers.push_back(parameter.default_value);
-    std::set<std::string_view> requested;
+    std::set<std::string_view> seen;
     while (!query.empty()) {
         const std::string_view one = query.substr(0, query.find('&'));
         query.remove_prefix(std::min(query.size(), one.size() + 1));
@@ -156,7 +156,7 @@ std::vector<std::uint32_t> numbersFrom(const std::string& name, const Row& row, 
         if (known == row.parameters.end() || key.size() == one.size())
             fail("builtin:" + name, fmt::format("unknown parameter '{}'; {} takes {}", one, row.name,
                                                 namesOf(row.parameters, ", ")));
-        if (!requested.insert(key).second) fail("builtin:" + name, fmt::format("{} is given twice", key));
+        if (!seen.insert(key).second) fail("builtin:" + name, fmt::format("{} is given twice", key));
         const std::string_view digits = one.substr(key.size() + 1);
         std::uint32_t& number = numbers[static_cast<std::size_t>(known - row.parameters.begin())];
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -179,12 +179,12 @@ const Row& rowOf(const std::string& name) {
 
 // The parameters of "array?objects=5", or the defaults; none if the scene has none.
 std::vector<std::uint32_t> numbersOf(const std::string& name, const Row& row) {
-    const bool requested = row.name.size() < name.size();
-    if (requested && row.name.size() + 1 == name.size())
+    const bool has_parameters = row.name.size() < name.size();
+    if (has_parameters && row.name.size() + 1 == name.size())
         fail(fmt::format("builtin:{}: a parameter is missing after the ?", name));
-    if (!requested && row.makeWith == nullptr) return {};
+    if (!has_parameters && row.makeWith == nullptr) return {};
     return numbersFrom(name, row,
-                       std::string_view(name).substr(requested ? row.name.size() + 1 : name.size()));
+                       std::string_view(name).substr(has_parameters ? row.name.size() + 1 : name.size()));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A wall of equal tiles with layered materials on chosen shares of it. Shows what drawing a layer costs.
+// A wall of equal tiles with layered materials on chosen fractions of it. Shows what drawing a layer costs.
 #include "shared/scene/builtin/scenes.h"
 #include "shared/scene/lights/rig.h"
 #include "shared/text/fail.h"

@@ -251,7 +251,7 @@ Json takeTinygltfPart(Json& document) {
     for (const char* key :
          {"accessors", "animations", "bufferViews", "cameras", "meshes", "nodes", "scene", "scenes", "skins"})
         if (const auto at = document.find(key); at != document.end()) part[key] = std::move(*at);
-    // tinygltf leaves out channels without a node. One whose target is a pointer gets node 0,
+    // tinygltf omits channels without a node. One whose target is a pointer gets node 0,
     // which is ignored; the others move nothing.
     for (Json& animation : part["animations"])
         std::erase_if(animation["channels"].get_ref<Json::array_t&>(), [](Json& channel) {

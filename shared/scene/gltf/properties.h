@@ -27,7 +27,7 @@ enum class Kind {
     flag,            // true or false
     text,            // one of `choices`; any text if empty
     name,            // any text; used only in messages and lists
-    numbers,         // `least` to `most` numbers, each from min to max
+    numbers,         // `min_count` to `max_count` numbers, each from min to max
     index,           // into collection `of`
     indices,         // array of indices into collection `of`
     names,           // array of strings

@@ -18,7 +18,7 @@ public:
     // `folder` empty: reads only data URIs.
     explicit Resources(const std::filesystem::path& folder);
 
-    // Reads at most the first `most` bytes. Throws std::runtime_error: "a.bin: no such file". Messages and
+    // Reads at most the first `max` bytes. Throws std::runtime_error: "a.bin: no such file". Messages and
     // notes do not name the object that has the uri. A note says if another file than the uri's was read.
     std::vector<unsigned char> read(const std::string& uri, std::uint64_t max,
                                     std::vector<std::string>& notes) const;

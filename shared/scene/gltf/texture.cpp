@@ -50,7 +50,7 @@ Sampler readSampler(const Json& file, const std::string& who) {
     return sampler;
 }
 
-// Decodes an HDR image as a texture. `most`: limit of its decoded bytes. Errors begin with `who`.
+// Decodes an HDR image as a texture. `max`: limit of its decoded bytes. Errors begin with `who`.
 TextureImage decodeRadiance(std::span<const unsigned char> bytes, const std::string& who, std::uint64_t max,
                             std::vector<std::string>& notes) {
     const ImageFile stored = readImage(std::as_bytes(bytes), who, {}, max);

@@ -85,7 +85,7 @@ struct Spot {
     double light = 0;  // luminance times solid angle
 };
 
-// Flood fill from `first` over texels at least as bright as `least`; marks them.
+// Flood fill from `first` over texels at least as bright as `min`; marks them.
 Texels connected(const SkyTexels& sky, std::size_t first, double min, std::vector<bool>& marked) {
     Texels found{first};
     marked[first] = true;

@@ -40,7 +40,7 @@ struct EnvironmentSun {
     // illuminance is that of a facing surface, per component. The angle is that of a uniform disc with
     // this illuminance and mean squared radiance.
     Light light;
-    double fraction = 0;  // fraction of the environment's luminance
+    double fraction = 0;  // of the environment's luminance
 };
 
 // Extracts the spot with the most luminance that meets the criteria. Integrates the bilinear image that

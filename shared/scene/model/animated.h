@@ -164,7 +164,7 @@ std::vector<bool> mapsThatTurn(const Scene& scene, const Counts& counts) {
 inline std::vector<bool> tangentMapsThatTurn(const Scene& scene) {
     return mapsThatTurn(scene, [](const Material& m, std::size_t slot) { return slot == tangentSlot(m); });
 }
-// A map that RotatedMaps may be about.
+// A map that RotatedMaps may describe.
 inline std::vector<bool> layerMapsThatTurn(const Scene& scene) {
     return mapsThatTurn(scene, [](const Material& m, std::size_t slot) {
         return slot != tangentSlot(m) && (slot == gpu::SLOT_clearcoat_normal || slot == gpu::SLOT_anisotropy);

@@ -100,7 +100,7 @@ inline bool sameDirections(const TextureSlot& a, const TextureSlot& b) {
 }
 
 // Maps of layers whose generated tangents differ from those of tangentMap(). Vertices store one further
-// frame; a third is left out. Anisotropy without a texture takes the normal texture's UV set, untransformed.
+// frame; a third is omitted. Anisotropy without a texture takes the normal texture's UV set, untransformed.
 struct RotatedMaps {
     std::uint32_t layers = 0;  // a sum of LAYER_CLEARCOAT and LAYER_ANISOTROPY
     TextureSlot map{};

@@ -233,7 +233,7 @@ private:
         return sum;
     }
 
-    // Largest sum of share * pull(term), with each share at most the term's and their total at most
+    // Largest sum of fraction * pull(term), with each fraction at most the term's and their total at most
     // `rest`.
     template <class Pull>
     double furthest(double rest, const Pull& pull) {

@@ -53,7 +53,7 @@ struct Pose {
     std::vector<std::vector<double>> weights;    // of morph targets; entries of only zeros are omitted
     std::vector<PosedBox> boxes;                 // for deformed instances
     std::vector<Material> materials;             // as Scene::materials; empty if not animated
-    std::vector<std::string> notes{};            // a line for users on instances that are left out
+    std::vector<std::string> notes{};            // a line for users on omitted instances
 };
 
 inline const Primitive& primitiveOf(const Scene& scene, const Instance& instance) {

@@ -79,7 +79,7 @@ private:
     Allocation take(std::size_t block, const VkMemoryRequirements& needs);
     void release(std::size_t block, VkDeviceSize offset, VkDeviceSize size);
     VkDeviceSize sharedBytes(std::uint32_t type, bool image) const;
-    // Index of a new block of `most` bytes, or else of `least`; nothing if the type's heap is full.
+    // Index of a new block of `max` bytes, or else of `min`; nothing if the type's heap is full.
     std::optional<std::size_t> addBlock(std::uint32_t type, VkDeviceSize max, VkDeviceSize min, bool image);
     std::uint32_t heapOf(std::uint32_t type) const { return properties_.memoryTypes[type].heapIndex; }
 

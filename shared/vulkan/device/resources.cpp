@@ -283,7 +283,7 @@ struct Uploader::State {
     Device& device;
     GpuBuffer staging{};
     VkDeviceSize used = 0;
-    std::uint64_t requested = 0;  // bytes so far
+    std::uint64_t uploaded = 0;  // bytes so far
     std::vector<std::function<void(VkCommandBuffer)>> copies{};
 
     // Staging memory for `bytes`; larger data are uploaded in pieces.
@@ -315,11 +315,11 @@ Uploader::Uploader(Device& device) : state_(new State{device}) {}
 Uploader::~Uploader() = default;
 
 std::uint64_t Uploader::bytes() const {
-    return state_->requested;
+    return state_->uploaded;
 }
 
 void Uploader::buffer(const GpuBuffer& target, std::span<const std::byte> data) {
-    state_->requested += data.size();
+    state_->uploaded += data.size();
     for (VkDeviceSize done = 0; done < data.size();) {
         const VkDeviceSize bytes = std::min<VkDeviceSize>(data.size() - done, stagingSize);
         VkBufferCopy copy{.srcOffset = 0, .dstOffset = done, .size = bytes};
@@ -333,7 +333,7 @@ void Uploader::buffer(const GpuBuffer& target, std::span<const std::byte> data) 
 
 void Uploader::level(const GpuImage& target, std::uint32_t level, std::span<const std::byte> data) {
     VkDeviceSize offset = 0;
-    state_->requested += data.size();
+    state_->uploaded += data.size();
     std::copy(data.begin(), data.end(), state_->reserve(data.size(), offset));
     const GpuImageInfo& info = target.info();
     const VkBufferImageCopy copy{

@@ -21,7 +21,7 @@ std::size_t chooseDevice(const std::vector<DeviceInfo>& infos, const std::string
 std::optional<std::size_t> findDevice(const std::vector<DeviceInfo>& infos, const std::string& choice);
 std::string listOf(const std::vector<DeviceInfo>& infos);  // "0: NAME, 1: ..."; "none"
 
-// Fact that drivers without hardware lack; DeviceCompiler does not need it.
+// Property that drivers without hardware lack; DeviceCompiler does not need it.
 inline constexpr const char* memoryProperty = "memory";
 
 // Enables exactly the supported features of DEVICE_FEATURES, and the extensions. `statistics`: also those

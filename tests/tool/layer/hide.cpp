@@ -28,7 +28,7 @@ bool hides(const std::string& name) {
     return hidden() == name;
 }
 
-// The lowered limit: the given number, or `least`.
+// The lowered limit: the given number, or `min`.
 std::uint32_t lowered(const std::string& limit, std::uint32_t there, std::uint32_t min) {
     if (!hidden().starts_with(limit)) return there;
     const std::string number = hidden().substr(limit.size());

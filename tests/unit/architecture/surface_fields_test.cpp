@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A lit channel of a packed G-buffer is judged by the surface fields that lighting reads. So each field
-// needs a judged channel, and the two forward+ variants may differ only in the decoded surface.
+// A lit channel of a packed G-buffer is evaluated by the surface fields that lighting reads. So each field
+// needs an evaluated channel, and the two forward+ variants may differ only in the decoded surface.
 #include "compare/verdict/encoding_bits.h"
 #include "shared/contract/gbuffer.h"
 #include "shared/frame/debug_modes.h"

@@ -41,7 +41,7 @@ double demanded(const PassWork& work, std::string_view name) {
     return -1;
 }
 
-TEST(BenchEstimate, EachDemandIsItsUnitsOverItsMetric) {
+TEST(BenchEstimate, EachDemandIsItsUnitsOverItsRate) {
     PassWork work = busyPass();
     EXPECT_NEAR(demanded(work, "memory"), 5 + 6 + 8, 1e-12);
     EXPECT_NEAR(demanded(work, "triangles"), 2, 1e-12);
@@ -100,12 +100,12 @@ TEST(BenchEstimate, AFrameIsTheSumOfTheLongestDemands) {
         << "half of a figure takes twice as long";
 }
 
-TEST(BenchEstimate, MetricsOfGpusAreThere) {
+TEST(BenchEstimate, RatesOfGpusAreThere) {
     ASSERT_FALSE(estimatedGpus().empty());
     for (const GpuRates& gpu : estimatedGpus())
-        for (const double metric :
+        for (const double rate :
              {gpu.bytes, gpu.triangles, gpu.outputs, gpu.texels, gpu.draw_flops, gpu.compute_flops})
-            EXPECT_GT(metric, 0) << gpu.name;
+            EXPECT_GT(rate, 0) << gpu.name;
 }
 
 }  // namespace

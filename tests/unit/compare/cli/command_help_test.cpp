@@ -218,7 +218,7 @@ TEST(CommandLine, PrintedDefaultsAreThoseThatAreUsed) {
     EXPECT_EQ(seen, foundDefaults());
 }
 
-// Of those, what can be said on the command line means the same as saying nothing.
+// A default that the command line accepts means the same as omitting the option.
 TEST(CommandLine, SayingADefaultChangesNothing) {
     const auto plain = parsedAs<SceneGroup>({"render"});
     const auto said = parsedAs<SceneGroup>({"render", "builtin:gallery", "--debug", "lit", "--channels",

@@ -39,7 +39,7 @@ Image times(const Image& image, const auto& factor) {
     return made;
 }
 
-// The share of the whole change attributed to a light, weighted by the change's magnitude.
+// The fraction of the whole change attributed to a light, weighted by the change's magnitude.
 double fractionOf(const std::vector<std::vector<float>>& parts, std::size_t light, const Image& change) {
     double part = 0, all = 0;
     for (std::size_t p = 0; p < change.pixels(); ++p) {
@@ -85,7 +85,7 @@ TEST(LightsOfChange, LightsThatCannotBeToldApartShare) {
     EXPECT_NEAR(fractionOf(parts, 1, change), 2.0 / 3, 1e-5);
 }
 
-// Between two lights that both change, each gets a share.
+// Between two lights that both change, each gets a part.
 TEST(LightsOfChange, WhatOneLightLeavesIsTheNextOnes) {
     const std::vector<Image> lights = threeLights();
     Image change = lights[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shares of causes, compared with games whose shares have a closed form.
+// Contributions of causes, compared with games whose contributions have a closed form.
 #include "compare/explain/shapley.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST(Shapley, IndependentCausesGetWhatTheyBring) {
     for (const double pair : contributions.interaction) EXPECT_NEAR(pair, 0, 1e-14);
 }
 
-// Each cause alone makes the whole difference. Leaving one out changes nothing, yet both get a share.
+// Each cause alone makes the whole difference. Leaving one out changes nothing, yet both contribute.
 TEST(Shapley, RedundantCausesShare) {
     const Contributions contributions = exactContributions(2, [](Subset s) { return s != 0 ? 1.0 : 0.0; });
     EXPECT_EQ(contributions.last[0], 0);
@@ -110,7 +110,7 @@ TEST(Shapley, PairsHaveTheirPlaces) {
         }
 }
 
-// The linear form gives the same shares, exact or sampled.
+// The linear form gives the same contributions, exact or sampled.
 TEST(Shapley, WeightsGiveTheSameContributions) {
     for (const int causes : {1, 4, 7}) {
         const std::vector<double> game = randomGame(causes, 13);
@@ -132,11 +132,11 @@ TEST(Shapley, WeightsGiveTheSameContributions) {
     }
 }
 
-// Sampled shares also add up. Their 95 % intervals must contain the true values in at least 90 % of 240
-// cases (12 causes, 20 seeds); the standard deviation is 1.4 %.
+// Sampled contributions also add up. Their 95 % intervals must contain the true values in at least 90 % of
+// 240 cases (12 causes, 20 seeds); the standard deviation is 1.4 %.
 TEST(Shapley, SampledContributionsLieWithinTheirIntervals) {
     const int causes = 12;
-    // True share: the cause's own value and half of each of its pairs' values.
+    // True contribution: the cause's own value and half of each of its pairs' values.
     const std::vector<double> own = randomGame(4, 3), pairs = randomGame(8, 5);
     const SubsetValue value = [&](Subset s) {
         double sum = 0;
@@ -160,7 +160,7 @@ TEST(Shapley, SampledContributionsLieWithinTheirIntervals) {
                         0.5 * pairs.at(static_cast<std::size_t>(std::max(i, j) * 12 + std::min(i, j)));
             const auto at = static_cast<std::size_t>(i);
             ++cases;
-            // An order and its reverse give pair shares exactly, so there is no deviation.
+            // An order and its reverse give contributions of pairs exactly, so there is no deviation.
             inside +=
                 std::abs(contributions.contribution[at] - expected) <= contributions.interval[at] + 1e-12;
         }

@@ -243,9 +243,9 @@ double lightInFloat(const Light& light, const glm::vec3& location, const glm::ve
     return double{lobe * n_dot_l * ((1 - x * x) / d2)};
 }
 
-// Float32 errs by more than the constant share where light grazes, nears its range or meets a sharp lobe, and
-// by less than the bound. A lobe that is 1 % too wide or 0.1 % too bright errs by more at almost all lights,
-// and the bound leaves blunt lobes in the middle of a light's range alone.
+// Float32 errs by more than the constant fraction where light grazes, nears its range or meets a sharp lobe,
+// and by less than the bound. A lobe that is 1 % too wide or 0.1 % too bright errs by more at almost all
+// lights, and the bound leaves blunt lobes in the middle of a light's range alone.
 TEST(ReferenceLobes, RoundingIsBoundedAndAWrongLobeIsNot) {
     std::mt19937 random(3);
     const auto number = [&](double from, double to) {

@@ -120,7 +120,7 @@ TEST(ReportErrors, ThePageTellsThem) {
     EXPECT_EQ(lit.find("data-pixel"), std::string::npos) << "nothing differs";
 }
 
-// The card of roughness judged by a rule; one pixel is off by 0.25. `shown` is the FLIP map.
+// The card of roughness evaluated by a rule; one pixel is off by 0.25. `shown` is the FLIP map.
 std::string evaluatedCard(const Criterion& criterion, const Image* shown = nullptr) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surface channels are judged by the encoding's error bound at each pixel, and lit by the surface
+// Surface channels are evaluated by the encoding's error bound at each pixel, and lit by the surface
 // channels.
 #include "compare/verdict/encoding_use.h"
 
@@ -241,8 +241,8 @@ TEST(EncodingUse, EverySampleIsEvaluated) {
     }
 }
 
-// lit depends on the surface fields. They are judged with it and shown if they fail; without light they
-// are only judged if compared themselves.
+// lit depends on the surface fields. They are evaluated with it and shown if they fail; without light they
+// are only evaluated if compared themselves.
 TEST(EncodingUse, LitIsEvaluatedWithItsFields) {
     const std::vector<Channel> lit{Channel::lit};
     PackedPair sound;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Comparison with a reference in mode scene: which pixels have tight bounds, which are judged by FLIP, and
+// Comparison with a reference in mode scene: which pixels have tight bounds, which are evaluated by FLIP, and
 // that either can fail.
 #include "compare/verdict/footprint.h"
 #include "compare/metrics/flip.h"
@@ -142,7 +142,7 @@ TEST(Footprint, APixelIsSmoothOnlyInBoth) {
     }
 }
 
-// The judged image does not widen its own tolerance, left or right. Examples: wrong depths around a very
+// The tested image does not widen its own tolerance, left or right. Examples: wrong depths around a very
 // wrong one, and uneven albedo where the reference is constant.
 TEST(Footprint, OnlyTheReferencesSurroundingsAreGranted) {
     for (const std::size_t path : {1u, 0u}) {
@@ -229,8 +229,8 @@ TEST(Footprint, LightIsHeldWhereTheSurfaceIsOne) {
     EXPECT_EQ(evaluated(frames, Channel::metallic).verdict, Verdict::fail);
 }
 
-// Light is judged alike whichever channels are compared. Channels missing in both images do not matter. If
-// one image lacks a channel, surfaces may differ; then the report says that only FLIP judges, and --strict
+// Light is evaluated alike whichever channels are compared. Channels missing in both images do not matter. If
+// one image lacks a channel, surfaces may differ; then the report says that only FLIP decides, and --strict
 // fails.
 TEST(Footprint, LightIsHeldTightlyWhateverIsCompared) {
     std::vector<Frame> frames = evenFrames();

@@ -126,10 +126,10 @@ TEST(Metrics, AreGivenByTheirNames) {
     // Statistics that were computed before are used, whatever the metric.
     ChannelStats known =
         channelStats(ErrorKind::absolute, ChannelKind::color, s.reference, s.test, s.covered);
-    const Measurement requested(
+    const Measurement measurement(
         {ErrorKind::absolute, ChannelKind::color, false, s.reference, s.test, &s.covered, &known});
     for (const auto& [name, value] : ofPixels(e.absolute))
-        EXPECT_NEAR(requested({name, 0}).value_or(-1), value, 1e-12 * value) << name;
+        EXPECT_NEAR(measurement({name, 0}).value_or(-1), value, 1e-12 * value) << name;
 }
 
 TEST(Metrics, OfPlainMetricsArePixelsToo) {

@@ -157,7 +157,7 @@ TEST(Uncertainty, OfAnySizeExcusesNothingThatIsNoNumber) {
         }
 }
 
-// Error image, worst pixel and metric name show the judged error. The left pixel's error is larger, but
+// Error image, worst pixel and metric name show the evaluated error. The left pixel's error is larger, but
 // within the reference's uncertainty.
 TEST(Uncertainty, WhatIsJudgedIsWhatIsShown) {
     const ChannelDiff fails = evaluated(sampled(), frameOf(Path::forward_plus, 1.5f, 2.5f));

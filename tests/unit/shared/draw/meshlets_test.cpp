@@ -45,42 +45,42 @@ std::vector<std::array<std::uint32_t, 3>> sorted(const std::vector<std::uint32_t
 
 TEST(Meshlets, HoldEveryTriangleOnceWithItsCornersInOrder) {
     for (const std::size_t count : {1, 64, 65, 1000}) {
-        const Triangles requested = soup(count);
-        std::vector<std::uint32_t> indices = requested.indices;
-        const std::vector<Meshlet> meshlets = buildMeshlets(requested.positions, indices);
-        EXPECT_EQ(sorted(indices), sorted(requested.indices));
+        const Triangles original = soup(count);
+        std::vector<std::uint32_t> indices = original.indices;
+        const std::vector<Meshlet> meshlets = buildMeshlets(original.positions, indices);
+        EXPECT_EQ(sorted(indices), sorted(original.indices));
         std::uint32_t next = 0;
         for (const Meshlet& meshlet : meshlets) {
             EXPECT_EQ(meshlet.first_index, next);
             next += meshlet.index_count;
             EXPECT_LE(meshlet.index_count, 3 * maxMeshletTriangles);
             EXPECT_GE(meshlet.index_count, 3 * std::min(count, maxMeshletTriangles / 2));
-            glm::vec3 min = requested.positions[indices[meshlet.first_index]], max = min;
+            glm::vec3 min = original.positions[indices[meshlet.first_index]], max = min;
             for (std::uint32_t i = 0; i < meshlet.index_count; ++i) {
                 if (i % 3 == 0 && i > 0) {
                     EXPECT_LT(indices[meshlet.first_index + i - 3], indices[meshlet.first_index + i]);
                 }
-                min = glm::min(min, requested.positions[indices[meshlet.first_index + i]]);
-                max = glm::max(max, requested.positions[indices[meshlet.first_index + i]]);
+                min = glm::min(min, original.positions[indices[meshlet.first_index + i]]);
+                max = glm::max(max, original.positions[indices[meshlet.first_index + i]]);
             }
             EXPECT_EQ(meshlet.min, min);
             EXPECT_EQ(meshlet.max, max);
         }
-        EXPECT_EQ(next, requested.indices.size());
+        EXPECT_EQ(next, original.indices.size());
     }
 }
 
 // Neighbours are together: the volume of all meshlets' boxes is a small fraction of the whole.
 TEST(Meshlets, AreSmall) {
-    Triangles requested = soup(4096);
-    std::ranges::sort(requested.indices);
-    for (std::size_t i = 0; i < requested.positions.size(); i += 3) {
-        const glm::vec3 at = requested.positions[i];
-        requested.positions[i + 1] = at + glm::vec3(0.01f, 0, 0);
-        requested.positions[i + 2] = at + glm::vec3(0, 0, 0.01f);
+    Triangles original = soup(4096);
+    std::ranges::sort(original.indices);
+    for (std::size_t i = 0; i < original.positions.size(); i += 3) {
+        const glm::vec3 at = original.positions[i];
+        original.positions[i + 1] = at + glm::vec3(0.01f, 0, 0);
+        original.positions[i + 2] = at + glm::vec3(0, 0, 0.01f);
     }
     double sum = 0;
-    for (const Meshlet& meshlet : buildMeshlets(requested.positions, requested.indices)) {
+    for (const Meshlet& meshlet : buildMeshlets(original.positions, original.indices)) {
         const glm::vec3 side = meshlet.max - meshlet.min;
         sum += double{side.x} * double{side.z};
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names, numbers and layers of channels, and the names of metrics.
+// Names, indices and layers of channels, and the names of error kinds.
 #include "shared/frame/debug_modes.h"
 
 #include <gtest/gtest.h>
@@ -27,19 +27,19 @@ TEST(DebugModes, NumbersAscendAndNamesAreUnique) {
     }
 }
 
-// Files and scripts of other programs rely on these numbers: they never change.
+// Files and scripts of other programs rely on these indices: they never change.
 TEST(DebugModes, ZeroToNineAreFixed) {
     const char* const names[] = {"lit",      "albedo",    "normals",  "metallic",    "roughness",
                                  "emission", "occlusion", "specular", "material_id", "texcoords"};
-    for (int number = 0; number < 10; ++number)
-        EXPECT_EQ(debugMode(channelOfIndex(number).value()).name, names[number]);
+    for (int index = 0; index < 10; ++index)
+        EXPECT_EQ(debugMode(channelOfIndex(index).value()).name, names[index]);
 }
 
 TEST(DebugModes, WhatIsNotThereIsNotFound) {
     for (const char* word : {"", "Lit", "lit ", "-1", "9999", "1x", "+1"})
         EXPECT_EQ(findDebugMode(word), nullptr) << word;
     EXPECT_THROW(debugMode(foreignChannel(0)), std::out_of_range);
-    for (const int number : {-1, 9999}) EXPECT_EQ(channelOfIndex(number), std::nullopt);
+    for (const int index : {-1, 9999}) EXPECT_EQ(channelOfIndex(index), std::nullopt);
 }
 
 TEST(DebugModes, ExrChannelsAreNamedByKindAndUnique) {

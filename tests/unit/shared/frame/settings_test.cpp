@@ -97,7 +97,7 @@ TEST(Settings, EveryValueSurvivesTextAndJson) {
     EXPECT_EQ(settingsFromJson(toJson(base)), base);
 }
 
-// What is no value of a type: as text, and as JSON.
+// Invalid values of a type, as text and as JSON.
 template <class T>
 std::array<std::vector<std::string>, 2> wrongValuesOf() {
     std::array<std::vector<std::string>, 2> wrong;

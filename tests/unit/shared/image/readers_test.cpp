@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all readers of images and textures do alike. A row for each kind of file.
+// Behaviour common to all readers of images and textures. A row for each kind of file.
 #include "shared/image/image_file.h"
 #include "shared/scene/image/decode.h"
 #include "tests/support/errors.h"

@@ -128,7 +128,7 @@ TEST(PerObject, ADirectedLightIsALobeOfThatMeanCosine) {
 // ---- all groups together -----------------------------------------------------------------------------
 
 // Lights of all types around a small box. No light is far brighter than the next in rank, so some have
-// shares in two groups.
+// fractions in two groups.
 std::vector<Light> mixedLights(unsigned seed, std::size_t count, double closest) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -197,7 +197,7 @@ Arriving arriving(const GpuLights& all, std::size_t i) {
     return {l, glm::dvec3(light.intensity) * scale};
 }
 
-// Every light's shares of the groups add up to one.
+// Every light's fractions in the groups add up to one.
 TEST(PerObject, TheGroupsShareEachLight) {
     std::size_t broken = 0, dark = 0;
     for (unsigned round = 0; round < 60; ++round) {
@@ -232,7 +232,7 @@ TEST(PerObject, TheGroupsShareEachLight) {
     EXPECT_GT(dark, 100u);
 }
 
-// An object's harmonics are the projection of the remaining lights' irradiance, weighted by their shares.
+// An object's harmonics are the projection of the remaining lights' irradiance, weighted by their fractions.
 // With the other groups' lights they give the irradiance of all lights, within the error of three bands.
 TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
     const ObjectPosition box{{0, 0, 0},
@@ -276,7 +276,7 @@ TEST(PerObject, TheRestIsTheProjectionOfItsIrradiance) {
 
 // ---- no popping --------------------------------------------------------------------------------------
 
-// Irradiance of each group at the box's centre for several normals, with the lights' shares.
+// Irradiance of each group at the box's centre for several normals, with the lights' fractions.
 std::vector<glm::dvec3> groupsAt(const std::vector<Light>& lights, const ObjectPosition& box) {
     const GpuLights all = gpuLights(lights, box.centre);
     const ObjectPosition here{{0, 0, 0}, box.half};

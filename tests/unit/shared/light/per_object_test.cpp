@@ -184,7 +184,7 @@ TEST(PerObject, NeverMoreThanThereIsRoomFor) {
     }
 }
 
-// One of the lights moves past the others, into its range and out of it, in steps of 1 cm: no share jumps.
+// One of the lights moves past the others, into its range and out of it, in steps of 1 cm: no fraction jumps.
 // At most 0.05: a step changes the closest light's brightness by up to 3 %, and the fade's steepest slope
 // is 1.5 over ln 4.
 TEST(PerObject, NothingPopsAsALightMoves) {
@@ -347,7 +347,7 @@ TEST(PerObject, TheBaseIsTheBrightestDirectionalLight) {
     EXPECT_EQ(lightFractions(casting, unitBox, 0)[1].pixel, 0);
 }
 
-// The base has no share per vertex or in harmonics, even beside equally bright suns.
+// The base has no fraction per vertex or in harmonics, even beside equally bright suns.
 TEST(PerObject, TheBaseIsWholeBesideSunsAsBright) {
     for (const float second : {1.0f, 0.999f, 0.5f})
         for (const std::uint32_t pixels : {0u, 1u, 3u}) {

@@ -33,9 +33,9 @@ namespace {
 // The module after SPIRV-Tools' optimiser, with these values.
 SpirvWords optimised(std::span<const std::uint32_t> module, const FeatureValues& values) {
     spvtools::Optimizer optimizer(spirvEnvironment);
-    std::unordered_map<std::uint32_t, SpirvWords> requested;
-    for (std::uint32_t id = 0; id < values.size(); ++id) requested[id] = {values[id]};
-    optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(requested));
+    std::unordered_map<std::uint32_t, SpirvWords> constants;
+    for (std::uint32_t id = 0; id < values.size(); ++id) constants[id] = {values[id]};
+    optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(constants));
     // Several rounds, because each finds more dead code after the previous one.
     const std::vector<std::string> begin{"--strip-debug", "--freeze-spec-const",
                                          "--fold-spec-const-op-composite"};
@@ -91,7 +91,7 @@ std::map<std::string, int> interfaceOf(const SpirvWords& words) {
     return found;
 }
 
-// Runs `judge` on each module with these values, on all cores. Returns its messages with module name and
+// Runs `evaluate` on each module with these values, on all cores. Returns its messages with module name and
 // seed.
 std::string ofEveryModule(
     std::uint32_t first, std::uint32_t end,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every built-in scene has the numbers that kept baselines and documented metrics were made of.
+// Every built-in scene has the numbers that kept baselines and documented measurements were made of.
 #include "shared/scene/builtin/builtin.h"
 #include "shared/scene/model/material_slots.h"
 

@@ -100,9 +100,9 @@ TEST(CubeMap, EveryDirectionIsWhereItIsSeenFromWithin) {
             }
     }
     double sum = 0, worst = 0;
-    const auto tryOne = [&](const glm::dvec3& requested) {
-        const glm::dvec3 d = glm::normalize(requested);
-        const double off = glm::length(2.0 * radianceOf(cube, requested) - 1.0 - d);
+    const auto tryOne = [&](const glm::dvec3& direction) {
+        const glm::dvec3 d = glm::normalize(direction);
+        const double off = glm::length(2.0 * radianceOf(cube, direction) - 1.0 - d);
         sum += off;
         worst = std::max(worst, off);
     };
