@@ -11,7 +11,7 @@
 namespace diptych {
 namespace {
 
-TEST(Command, ExplainNamesCausesAndTheirFractions) {
+TEST(Command, ExplainNamesCausesAndTheirContributions) {
     const Folder folder;
     const Ran ran = runTool(folder, "explain builtin:points --gbuffer compact --size 64x36 --json");
     ASSERT_EQ(ran.code, 0) << ran.err;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Behaviour common to all commands: help, bad input, outputs, interruption, documents. A row for each command.
+// Behaviour common to all commands: help, bad input, outputs, interruption, documents. A row for each
+// command.
 #include "tests/tool/faults.h"
 #include "tests/tool/running.h"
 #include "tests/tool/sweep.h"
