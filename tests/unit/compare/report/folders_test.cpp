@@ -104,7 +104,7 @@ TEST(ReportFolders, TitlesSayTheTime) {
     const Report several = askedFor({{"builtin:a", "0", false, 0}, {"builtin:a", "0", true, 0.5}});
     EXPECT_EQ(viewTitle(several, several.frames[0]), "0, 0 s");
     EXPECT_EQ(viewTitle(several, several.frames[3]), "0, 0.5 s");
-    EXPECT_EQ(placeOf(several, several.comparisons[1]), "builtin:a, 0, 0.5 s");
+    EXPECT_EQ(viewLabel(several, several.comparisons[1]), "builtin:a, 0, 0.5 s");
     EXPECT_NE(reportTable(several).find("builtin:a, 0, 0.5 s, 4x3: forward_plus against deferred"),
               std::string::npos)
         << reportTable(several);

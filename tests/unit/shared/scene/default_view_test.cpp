@@ -162,7 +162,7 @@ TEST(DefaultView, OfAnObjectIsTheUsual) {
     Scene crate;
     addBox(crate, {3, 4, 5}, {4, 5, 7}, false);
     const DefaultView view = chooseDefaultView(crate);
-    EXPECT_EQ(view.place, Place::standard);
+    EXPECT_EQ(view.viewpoint, Place::standard);
     EXPECT_EQ(view.backward, standardSide);
     EXPECT_GT(view.covered, 0.1);
     EXPECT_LT(view.covered, 0.6);
@@ -173,13 +173,13 @@ TEST(DefaultView, OfAnObjectIsTheUsual) {
 TEST(DefaultView, OfASolidBlockAsLargeAsARoomIsTheUsual) {
     Scene block;
     addBox(block, {0, 0, 0}, {8, 3, 6}, false);
-    EXPECT_EQ(chooseDefaultView(block).place, Place::standard);
+    EXPECT_EQ(chooseDefaultView(block).viewpoint, Place::standard);
 }
 
 TEST(DefaultView, OfAClosedRoomIsFromInside) {
     const Scene scene = closedRoom();
     const DefaultView view = chooseDefaultView(scene);
-    ASSERT_EQ(view.place, Place::inside) << wordsOf(view);
+    ASSERT_EQ(view.viewpoint, Place::inside) << wordsOf(view);
     EXPECT_DOUBLE_EQ(view.covered, 1);
     EXPECT_NEAR(view.eye.y, 1.6, 1e-3) << "a person's eye over the floor";
     EXPECT_TRUE(view.eye.x > 0 && view.eye.x < 8 && view.eye.z > 0 && view.eye.z < 6);
@@ -193,7 +193,7 @@ TEST(DefaultView, OfARoomTooLowToStandInIsFromOutside) {
          {std::pair{0.1, Place::standard}, {0.65, Place::standard}, {0.7, Place::inside}}) {
         Scene scene = closedRoom();
         for (Node& node : scene.nodes) node.parent_from_node = glm::scale(glm::dmat4(1), glm::dvec3(scale));
-        EXPECT_EQ(chooseDefaultView(scene).place, place) << 3 * scale << " m";
+        EXPECT_EQ(chooseDefaultView(scene).viewpoint, place) << 3 * scale << " m";
     }
 }
 
@@ -219,7 +219,7 @@ TEST(DefaultView, OfAnOpenFloorIsFromOutside) {
     Scene floor;
     addBox(floor, {0, 0, 0}, {20, 0.1f, 20}, false);
     for (const float x : {2.0f, 8.0f, 14.0f}) addBox(floor, {x, 0.1f, x}, {x + 2, 3, x + 2}, false);
-    EXPECT_EQ(chooseDefaultView(floor).place, Place::standard) << "half of what is around is sky";
+    EXPECT_EQ(chooseDefaultView(floor).viewpoint, Place::standard) << "half of what is around is sky";
 }
 
 // A stage with its back to the default view, and much to see on the other side.
@@ -231,7 +231,7 @@ TEST(DefaultView, ChangesSidesWhereThatShowsTwiceAsMuch) {
         addBox(stage, {x, y, -0.2f}, {x + 2, y + 1.5f, 0}, false);
     }
     const DefaultView view = chooseDefaultView(stage);
-    ASSERT_EQ(view.place, Place::outside) << wordsOf(view);
+    ASSERT_EQ(view.viewpoint, Place::outside) << wordsOf(view);
     EXPECT_LT(view.backward.z, 0);
     EXPECT_NE(wordsOf(view).find("from another side"), std::string::npos);
 }
@@ -316,6 +316,6 @@ TEST(DefaultView, OfSponzaIsFromInside) {
         std::filesystem::path(DIPTYCH_SOURCE_DIR) / "../shared/assets/scenes/sponza/Sponza.gltf";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
     const DefaultView view = chooseDefaultView(loadScene(file.string(), [](double, const char*) {}));
-    EXPECT_EQ(view.place, Place::inside);
+    EXPECT_EQ(view.viewpoint, Place::inside);
     EXPECT_GT(view.covered, 0.95);
 }

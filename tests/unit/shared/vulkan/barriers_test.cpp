@@ -19,10 +19,10 @@ class Barriers : public testing::Test {
 protected:
     std::vector<Barrier> buffer(const Access& access) { return tracker.before("pass", {{list, {}, access}}); }
     std::vector<Barrier> image(const Access& access, bool discards = false) {
-        return tracker.before("pass", {{image, {}, access, discards}});
+        return tracker.before("pass", {{target, {}, access, discards}});
     }
     BarrierTracker tracker;
-    const std::size_t list = tracker.add("list"), image = tracker.add("picture"),
+    const std::size_t list = tracker.add("list"), target = tracker.add("picture"),
                       pyramid = tracker.add("pyramid", 3, 2);
 };
 
@@ -76,7 +76,7 @@ TEST_F(Barriers, WhatWasThereBeforeIsReadAtOnce) {
 
 TEST_F(Barriers, AnImageChangesItsLayout) {
     EXPECT_EQ(image(access::colorAttachment, true),
-              (std::vector<Barrier>{{image, {}, {}, access::colorAttachment}}));
+              (std::vector<Barrier>{{target, {}, {}, access::colorAttachment}}));
     const std::vector<Barrier> sampled = image(colorSampled);
     ASSERT_EQ(sampled.size(), 1u);
     EXPECT_EQ(sampled[0].from, (Access{access::colorAttachment.stages, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
@@ -96,9 +96,9 @@ TEST_F(Barriers, AnImageChangesItsLayout) {
 }
 
 TEST_F(Barriers, OnePassMayTestAndSampleDepth) {
-    tracker.before("draw", {{image, {}, access::depthAttachment, true}});
+    tracker.before("draw", {{target, {}, access::depthAttachment, true}});
     const std::vector<Barrier> both = tracker.before(
-        "shade", {{image, {}, access::depthTest}, {image, {}, access::sampledDepth(inFragment)}});
+        "shade", {{target, {}, access::depthTest}, {target, {}, access::sampledDepth(inFragment)}});
     ASSERT_EQ(both.size(), 1u);
     EXPECT_EQ(both[0].to,
               (Access{access::depthStages | inFragment,
@@ -131,7 +131,7 @@ TEST_F(Barriers, SharedMemoryWaitsForItsEarlierOwner) {
     image(access::colorAttachment, true);
     image(colorSampled);
     const std::size_t second = tracker.add("second");
-    tracker.alias(second, image);
+    tracker.alias(second, target);
     const std::vector<Barrier> taken = tracker.before("next", {{second, {}, access::colorAttachment, true}});
     ASSERT_EQ(taken.size(), 1u);
     EXPECT_EQ(taken[0].from.stages, inFragment);
@@ -147,7 +147,7 @@ TEST_F(Barriers, ContradictionsAreNamed) {
         }
         return "";
     };
-    EXPECT_EQ(fault({{image, {}, colorSampled}, {image, {}, access::colorAttachment}}),
+    EXPECT_EQ(fault({{target, {}, colorSampled}, {target, {}, access::colorAttachment}}),
               "pass shade: uses picture in two layouts at once");
     EXPECT_EQ(fault({{list, {}, computeWrite}, {list, {}, fragmentRead}}),
               "pass shade: writes and reads list in different stages");
@@ -170,7 +170,7 @@ TEST_F(Barriers, ContentsAreDiscardedOnlyWhereEveryUseDoes) {
     image(access::colorAttachment, true);
     image(colorSampled);
     const std::vector<Barrier> kept = tracker.before(
-        "pass", {{image, {}, access::colorAttachment, true}, {image, {}, access::colorAttachment}});
+        "pass", {{target, {}, access::colorAttachment, true}, {target, {}, access::colorAttachment}});
     ASSERT_EQ(kept.size(), 1u);
     EXPECT_EQ(kept[0].from.layout, colorSampled.layout);
 }
@@ -185,7 +185,7 @@ TEST_F(Barriers, AGeneralReadOfShadersCoversEachKind) {
 }
 
 TEST_F(Barriers, WhatWasUploadedIsInTheLayoutThatItWasLeftIn) {
-    tracker.setWritten(image, colorSampled.layout);
+    tracker.setWritten(target, colorSampled.layout);
     EXPECT_TRUE(image(colorSampled).empty());
     EXPECT_EQ(image(access::colorAttachment).at(0).from.layout, colorSampled.layout);
 }
