@@ -311,7 +311,7 @@ TEST(TransparencyModes, TheOrderOfDrawsChangesNothing) {
     const auto shuffledBy = [](unsigned seed) {
         return [seed](PreparedView& view) {
             std::mt19937 random(seed);
-            const auto first = view.draws.items.begin() + static_cast<std::ptrdiff_t>(view.draws.solid);
+            const auto first = view.draws.items.begin() + static_cast<std::ptrdiff_t>(view.draws.solid_count);
             std::shuffle(first, view.draws.items.end(), random);
         };
     };
@@ -345,8 +345,9 @@ TEST(TransparencyModes, TheOrderOfDrawsChangesUnsorted) {
     const Scene scene = stacks(6, 0.5f, 3).scene;
     const Image first = litWith(scene, imageSettings(Transparency::unsorted), nothing),
                 turned = litWith(scene, imageSettings(Transparency::unsorted), [](PreparedView&view) {
-                    std::reverse(view.draws.items.begin() + static_cast<std::ptrdiff_t>(view.draws.solid),
-                                 view.draws.items.end());
+                    std::reverse(
+                        view.draws.items.begin() + static_cast<std::ptrdiff_t>(view.draws.solid_count),
+                        view.draws.items.end());
                 });
     EXPECT_GT(differingPixels(first, turned), first.pixels() / 2);
 }

@@ -30,9 +30,9 @@ void PrintTo(const CommandRow& row, std::ostream* out) {
 
 std::vector<CommandRow> commandRows() {
     using Words = std::vector<std::string>;
-    const std::string grid =
+    const std::string sweepGrid =
         R"({"settings":{"path":["deferred","forward_plus"],"gbuffer":["compact","full"]}})";
-    const Words sweepWork{"builtin:points", "--size", "96x54", "--runs", "20", "--grid", grid},
+    const Words sweepWork{"builtin:points", "--size", "96x54", "--runs", "20", "--grid", sweepGrid},
         compareWork{"builtin:points", "--size", "192x108", "--runs", "5"},
         renderWork{"builtin:points", "--size", "640x360", "--runs", "20"},
         explainWork{"builtin:points", "--gbuffer", "compact", "--size", "192x108"},
