@@ -5,8 +5,8 @@
 #ifndef MSM_GLSL
 #define MSM_GLSL
 
+#include "shaders/lib/shadows/evsm.glsl"
 #include "shaders/lib/shadows/hamburger.glsl"
-#include "shaders/lib/shadows/moments.glsl"
 
 // Section 4.3 of the paper: the affine map that uses 16 bits best, 0 to 1 for each moment; and its
 // inverse.

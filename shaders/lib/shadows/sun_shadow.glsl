@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Visibility of the directional light (shared/contract/shadow.h).
+// Visibility of the directional light (shared/contract/shadow.h), by the filter of --shadows.
 #ifndef SUN_SHADOW_GLSL
 #define SUN_SHADOW_GLSL
 
 #include "shaders/lib/shadows/clipmap.glsl"
 #include "shaders/lib/math/loop.glsl"
 #include "shaders/lib/shadows/msm.glsl"
-#include "shaders/lib/shadows/shadow_light.glsl"
-#include "shaders/lib/surface/surface.glsl"
+#include "shaders/lib/shadows/pcf.glsl"
 
 layout(set = SET_FRAME, binding = BINDING_SHADOW_MAP) uniform sampler2DArray shadow_map;
 
@@ -37,98 +36,6 @@ float cascadeIndex(const vec3 position) {
 float pageResidency(const vec3 position) {
     if (feature_shadows != SHADOWS_CLIPMAP) return -1.0;
     return residentPage(shadowLight(), position).level - cascadeIndex(position);
-}
-
-// A surface as the light sees it in a cascade: its texel coordinates, its depth there, and the plane of
-// its triangle. The plane is the depth bias of the comparisons (receiver plane depth bias, Isidoro 2006,
-// "Shadow Mapping: GPU-based Tips and Techniques"): a surface at a grazing angle to the light does not
-// shadow itself at any texel of a filter. Nothing is derived from neighbouring pixels.
-//
-// Texels towards which the plane rises are compared with the plane, up to MAX_PLANE_BIAS texels above the
-// surface. Farther up the triangle may have ended, and another surface there would be mistaken for it.
-// Texels where the plane rises more do not count, and they fade out before that. Texels towards which it
-// falls remain, and no texel beside the filter is read for them.
-struct ReceiverPlane {
-    vec2 texel;
-    float depth;
-    vec2 slope;                 // of depth, per texel
-    float normal_offset_depth;  // fall of the plane's depth if the surface was moved sideways
-    float max_bias;             // largest rise of the plane that is compared, depth
-    float cutoff_bias;          // rise of the plane at which a texel no longer counts, depth
-    float cutoff_scale;         // weight of a texel per depth below `cutoff_bias`
-};
-
-const float MAX_PLANE_BIAS = 2.0;
-// Smallest cosine between geometric normal and light that slopes use: a steeper plane crosses the whole
-// scene within few texels.
-const float MIN_SLOPE_COSINE = 1e-3;
-
-// The plane that is compared with the map, against shadow acne. `max_bias`: largest rise of the
-// plane above the surface, texels.
-ReceiverPlane sunReceiverPlane(const Surface s, const ShadowLight light, const Cascade cascade,
-                               const float max_bias) {
-    vec2 across = vec2(dot(s.geometric_normal, light.x), dot(s.geometric_normal, light.y));
-    float cosine = max(dot(s.geometric_normal, light.to_light), MIN_SLOPE_COSINE);
-    float texel = 1.0 / cascade.texels_per_metre;
-    float bias = cascade.bias * texel + light.rounding * lengthOf(s.position);
-    vec3 position = s.position + s.geometric_normal * bias;
-    float depth_of_texel = texel * light.depth_scale;
-    ReceiverPlane r;
-    r.texel =
-        vec2(dot(position, light.x), dot(position, light.y)) * cascade.texels_per_metre + cascade.offset;
-    r.depth = dot(position, light.to_light) * light.depth_scale + light.depth_offset;
-    r.slope = across * (-depth_of_texel / cosine);
-    r.normal_offset_depth = 0.0;
-    r.max_bias = max_bias * depth_of_texel;
-    r.cutoff_bias = r.max_bias;
-    r.cutoff_scale = 1.0 / depth_of_texel;
-    return r;
-}
-
-// 1 if the map's texel at `texel` (its centre) has nothing nearer to the light than the receiver.
-float compareWithPlaneBias(const ReceiverPlane r, const float stored, const vec2 texel) {
-    float bias = clamp(dot(r.slope, texel - r.texel) - r.normal_offset_depth, 0.0, r.max_bias);
-    return stored > r.depth + bias ? 0.0 : 1.0;
-}
-
-// Weight of a texel, 0 to 1.
-float texelWeight(const ReceiverPlane r, const vec2 texel) {
-    return clamp((r.cutoff_bias - dot(r.slope, texel - r.texel)) * r.cutoff_scale, 0.0, 1.0);
-}
-
-// Box filter of feature_shadow_kernel texels around the receiver, each weighted by its area in the box
-// (percentage-closer filtering, Reeves et al. 1987, "Rendering Antialiased Shadows with Depth Maps").
-// `shift`: from the receiver's texels to the layer's, whole.
-float pcfVisibility(const sampler2DArray map, const ReceiverPlane r, const vec2 shift, const uint layer) {
-    vec2 size = vec2(textureSize(map, 0).xy);
-    vec2 low = r.texel - 0.5 * float(feature_shadow_kernel);
-    vec2 first = floor(low), part = low - first;
-    // The box's area is summed in the same order as its lit part, so that full light is exactly 1 and
-    // shadow 0.
-    float lit = 0.0, area = 0.0;
-    for (uint y = 0; y <= feature_shadow_kernel; y += 2) {
-        for (uint x = 0; x <= feature_shadow_kernel; x += 2) {
-            vec2 corner = first + vec2(x, y);  // of 2 x 2 texels
-            vec4 stored = textureGather(map, vec3((corner + shift + 1.0) / size, float(layer)));
-            vec2 wx = vec2(x == 0u ? 1.0 - part.x : 1.0, x + 1u == feature_shadow_kernel ? part.x : 1.0);
-            vec2 wy = vec2(y == 0u ? 1.0 - part.y : 1.0, y + 1u == feature_shadow_kernel ? part.y : 1.0);
-            vec4 weights =
-                vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x);  // in textureGather's order
-            weights.x *= texelWeight(r, corner + vec2(0.5, 1.5));
-            weights.y *= texelWeight(r, corner + vec2(1.5, 1.5));
-            weights.z *= texelWeight(r, corner + vec2(1.5, 0.5));
-            weights.w *= texelWeight(r, corner + vec2(0.5, 0.5));
-            lit += weights.x * compareWithPlaneBias(r, stored.x, corner + vec2(0.5, 1.5));
-            lit += weights.y * compareWithPlaneBias(r, stored.y, corner + vec2(1.5, 1.5));
-            lit += weights.z * compareWithPlaneBias(r, stored.z, corner + vec2(1.5, 0.5));
-            lit += weights.w * compareWithPlaneBias(r, stored.w, corner + vec2(0.5, 0.5));
-            area += weights.x;
-            area += weights.y;
-            area += weights.z;
-            area += weights.w;
-        }
-    }
-    return area > 0.0 ? lit / area : 1.0;
 }
 
 // One sample of blurred moments.

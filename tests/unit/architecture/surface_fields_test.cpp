@@ -73,10 +73,10 @@ TEST(SurfaceFields, AllThatLightingReadsIsEvaluated) {
         for (const char* name :
              {"shading/shade.glsl", "shading/brdf.glsl", "shading/multiscatter.glsl",
               "shading/clearcoat.glsl", "shading/sheen.glsl", "environment/environment.glsl",
-              "shading/ambient.glsl", "shadows/sun_shadow.glsl", "shadows/pcss.glsl",
-              "shadows/local_shadow.glsl", "lights/ltc.glsl", "lights/area.glsl", "lights/area_point.glsl",
-              "lights/punctual_lights.glsl", "lights/object_lights.glsl", "environment/haze.glsl",
-              "shading/radiance.glsl"})
+              "shading/ambient.glsl", "shadows/sun_shadow.glsl", "shadows/receiver_plane.glsl",
+              "shadows/pcss.glsl", "shadows/local_shadow.glsl", "lights/ltc.glsl", "lights/area.glsl",
+              "lights/area_point.glsl", "lights/punctual_lights.glsl", "lights/object_lights.glsl",
+              "environment/haze.glsl", "shading/radiance.glsl"})
             EXPECT_FALSE(std::regex_search(shader(name), std::regex("\\bs\\." + field + "\\b")))
                 << name << " reads " << field;
     }

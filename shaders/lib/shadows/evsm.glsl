@@ -3,8 +3,8 @@
 // A texel stores the filtered means of w and w^2, where w = exp(c d) and depth d grows away from the
 // light. Four moments add those of -exp(-k d), whose bound fails in other places. A planar receiver never
 // shadows itself: the mean of a convex function is at least the function of the mean.
-#ifndef MOMENTS_GLSL
-#define MOMENTS_GLSL
+#ifndef EVSM_GLSL
+#define EVSM_GLSL
 
 #include "shaders/lib/contract.glsl"
 
