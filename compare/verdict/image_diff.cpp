@@ -239,12 +239,16 @@ ImageDiff diffImages(const std::string& reference, const std::string& test, cons
     diff.reference = reference;
     diff.test = test;
     std::optional<StillWorking> working(std::in_place, options.progress, "read");
-    auto [a, b, same_bytes, compared] = readPair(reference, test, options);
+    auto [a, b, compared, notes, failures] = readPair(reference, test, options);
     working.reset();
     const Claim claims[] = {a.claim, b.claim};  // of images that are moved below
     diff.reference_format = a.format;
     diff.test_format = b.format;
-    bringTogether(a, b, same_bytes, options.strict, diff);
+    diff.width = a.width;
+    diff.height = a.height;
+    diff.display = a.display_referred;
+    diff.notes = std::move(notes);
+    diff.failures = std::move(failures);
 
     checkNames(a, b, options.names);
     std::vector<ImageChannel> left = channelsOf(std::move(a), options.names),

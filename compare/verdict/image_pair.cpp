@@ -83,6 +83,39 @@ double bytesPerPixel(const ImageSize (&sizes)[2], EightBits eight, const ImageDi
     return images + std::max({split, coverage + flip + holes + options.output_bytes, coverage + filters});
 }
 
+// `same_bytes`: the files are equal, read or not.
+void bringTogether(ImagePair& pair, const std::string& reference, const std::string& test, bool same_bytes,
+                   bool strict) {
+    ImageFile &a = pair.reference, &b = pair.test;
+    if (a.width != b.width || a.height != b.height)
+        throw std::runtime_error(fmt::format("{} is {}x{} and {} is {}x{}: images must have the same size",
+                                             reference, a.width, a.height, test, b.width, b.height));
+    if (a.display_referred != b.display_referred) {
+        pair.notes.push_back(fmt::format("{} is {}; it was decoded from sRGB to linear to match the other",
+                                         a.display_referred ? reference : test,
+                                         a.display_referred ? a.format : b.format));
+        makeLinear(a.display_referred ? a : b);
+    }
+    if (a.straight_alpha != b.straight_alpha && hasAlpha(a) && hasAlpha(b)) {
+        pair.notes.push_back(fmt::format("{}: colours were multiplied by alpha to match the other",
+                                         a.straight_alpha ? reference : test));
+        associate(a.straight_alpha ? a : b);
+    }
+    for (const ImageFile* file : {&a, &b}) {
+        const std::string& name = file == &a ? reference : test;
+        const auto& others = (file == &a ? b : a).notes.not_applied;
+        const auto say = [&](const std::string& line, bool fails) {
+            (fails ? pair.failures : pair.notes).push_back(fmt::format("{}: {}", name, line));
+        };
+        for (const std::string& line : file->notes.lines) say(line, false);
+        // A line that both files have makes no difference between them.
+        for (const std::string& line : file->notes.not_applied)
+            say(line, strict && std::ranges::count(others, line) == 0);
+        if (file == &a || reference != test)
+            for (const std::string& line : file->notes.in_part) say(line, strict && !same_bytes);
+    }
+}
+
 }  // namespace
 
 ImagePair readPair(const std::string& reference, const std::string& test, const ImageDiffOptions& options) {
@@ -138,41 +171,9 @@ ImagePair readPair(const std::string& reference, const std::string& test, const 
     // A part that was chosen is read whole.
     for (const int i : {0, 1})
         if (!parts[i].empty()) images[i].notes.in_part.clear();
-    return {std::move(images[0]), std::move(images[1]), same_bytes, std::move(compared)};
-}
-
-void bringTogether(ImageFile& a, ImageFile& b, bool same_bytes, bool strict, ImageDiff& diff) {
-    if (a.width != b.width || a.height != b.height)
-        throw std::runtime_error(fmt::format("{} is {}x{} and {} is {}x{}: images must have the same size",
-                                             diff.reference, a.width, a.height, diff.test, b.width,
-                                             b.height));
-    if (a.display_referred != b.display_referred) {
-        diff.notes.push_back(fmt::format("{} is {}; it was decoded from sRGB to linear to match the other",
-                                         a.display_referred ? diff.reference : diff.test,
-                                         a.display_referred ? a.format : b.format));
-        makeLinear(a.display_referred ? a : b);
-    }
-    if (a.straight_alpha != b.straight_alpha && hasAlpha(a) && hasAlpha(b)) {
-        diff.notes.push_back(fmt::format("{}: colours were multiplied by alpha to match the other",
-                                         a.straight_alpha ? diff.reference : diff.test));
-        associate(a.straight_alpha ? a : b);
-    }
-    for (const ImageFile* file : {&a, &b}) {
-        const std::string& name = file == &a ? diff.reference : diff.test;
-        const auto& others = (file == &a ? b : a).notes.not_applied;
-        const auto say = [&](const std::string& line, bool fails) {
-            (fails ? diff.failures : diff.notes).push_back(fmt::format("{}: {}", name, line));
-        };
-        for (const std::string& line : file->notes.lines) say(line, false);
-        // A line that both files have makes no difference between them.
-        for (const std::string& line : file->notes.not_applied)
-            say(line, strict && std::ranges::count(others, line) == 0);
-        if (file == &a || diff.reference != diff.test)
-            for (const std::string& line : file->notes.in_part) say(line, strict && !same_bytes);
-    }
-    diff.width = a.width;
-    diff.height = a.height;
-    diff.display = a.display_referred;
+    ImagePair pair{std::move(images[0]), std::move(images[1]), std::move(compared), {}, {}};
+    bringTogether(pair, reference, test, same_bytes, options.strict);
+    return pair;
 }
 
 }  // namespace diptych

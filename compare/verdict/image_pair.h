@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Two image files as diff compares them: read within the memory that is there, and in one form.
+// Two image files, read within the memory that is there and brought into one form.
 #pragma once
 
-#include "compare/verdict/image_diff.h"
+#include "compare/verdict/image_diff_options.h"
 #include "shared/image/free_memory.h"
 #include "shared/image/image_file.h"
+
+#include <string>
+#include <vector>
 
 namespace diptych {
 
 struct ImagePair {
-    ImageFile reference, test;
-    bool same_bytes = false;
-    Claim compared;  // of what comparing needs beside the decoded images
+    ImageFile reference, test;                 // both linear, and both associated with alpha, if one is
+    Claim compared;                            // of what comparing needs beside the decoded images
+    std::vector<std::string> notes, failures;  // "a.png is PNG; it was decoded from sRGB to linear ..."
 };
 
-// Throws before decoding if this process has too little memory.
+// Throws std::runtime_error before decoding if this process has too little memory; if a file cannot be read;
+// if the sizes differ.
 ImagePair readPair(const std::string& reference, const std::string& test, const ImageDiffOptions& options);
-
-// Makes both linear and associated if one is; adds notes and failures to `diff`. `same_bytes`: the files are
-// equal, read or not. Throws std::runtime_error if the sizes differ.
-void bringTogether(ImageFile& a, ImageFile& b, bool same_bytes, bool strict, ImageDiff& diff);
 
 }  // namespace diptych

@@ -3,7 +3,6 @@
 
 #include "compare/image/heat.h"
 #include "compare/viewer/drawing/images.h"
-#include "compare/viewer/interface/interface.h"
 #include "shared/frame/debug_modes.h"
 
 #include <fmt/format.h>
