@@ -3,7 +3,6 @@
 // reference's rays, and cached pages equal redrawn ones.
 #include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
-#include "shared/contract/debug_mode.h"
 #include "shared/scene/lights/shadow_casters.h"
 #include "tests/image/shadow_scenes.h"
 
