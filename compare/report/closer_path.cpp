@@ -96,8 +96,9 @@ std::vector<Block> closerPathBlocks(const Report& report, const ReportLayout* la
             "which path is closer, pixel by pixel",
             {Span("", Span::swatch, "first"), report.frames[closer.paths[0]].name + " closer",
              Span("", Span::swatch, "second"), report.frames[closer.paths[1]].name + " closer",
-             fmt::format("{}: brightness is the difference of the errors, full at {}", first.mode->name,
-                         number(closerPathTop(first.error_difference)))}});
+             Span(fmt::format("{}: brightness is the difference of the errors, full at {}", first.mode->name,
+                              number(closerPathTop(first.error_difference))),
+                  Span::plain, "soft")}});
     addMaterials(left.blocks, report, closer, first);
     addMetrics(right.blocks, report, closer);
     blocks.emplace_back(columns);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What diff compares in two image files, and what passes.
+// Options of diff for two image files: channels, filters, and the metric and tolerance that decide.
 #pragma once
 
 #include "compare/run/progress.h"

@@ -12,8 +12,8 @@
 namespace diptych {
 
 struct ImagePair {
-    ImageFile reference, test;                 // both linear, and both associated with alpha, if one is
-    Claim compared;                            // of what comparing needs beside the decoded images
+    ImageFile reference, test;  // equally sized; sRGB and straight alpha are decoded if the other is
+    Claim compared;             // reserves memory for comparing, the decoded images apart
     std::vector<std::string> notes, failures;  // "a.png is PNG; it was decoded from sRGB to linear ..."
 };
 

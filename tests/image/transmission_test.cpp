@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // KHR_materials_transmission, _volume, _dispersion and _diffuse_transmission in both paths, compared with
-// closed forms, with the image of what is behind, and with each other.
+// closed forms, with the image behind them, and with each other.
 #include "compare/frames/frame_properties.h"
 #include "compare/render/prepared_view.h"
 #include "shared/scene/builtin/builder.h"

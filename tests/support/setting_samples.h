@@ -37,7 +37,7 @@ std::deque<T> samplesOf() {
     }
 }
 
-// Valid values of a Setting other than its default, as text: those that are swept, and samples.
+// Texts of valid values of a Setting, without its default: the swept ones, and samples.
 inline std::vector<std::string> otherValues(std::string_view option) {
     const Settings defaults;
     std::vector<std::string> values = sweptValues(defaults, option);

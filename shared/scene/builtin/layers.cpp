@@ -12,7 +12,7 @@
 namespace diptych::builtin {
 namespace {
 
-// Textures of the layers. A scene makes only those that its rows read.
+// The layers' textures. A scene makes only those that its rows read.
 struct Maps {
     TextureSlot relief = {}, ripples = {}, coat = {}, brushed = {}, sheen = {}, film = {};
     TextureSlot transmission = {}, thickness = {}, diffuse = {};
