@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: MIT
 """Makes small edits of the product, C++ and GLSL, and says which test notices each.
 
-    mutate.py WORK [FOLDER...] [--number 120] [--seed 1] [--since REV] [--all]
+    mutate.py WORK [FOLDER...] [--number 120] [--seed 1] [--since REV] [--all] [--alone]
 
 All edits stand in one build of a clone of HEAD (WORK/copy, which may be a link), each as
 `DIPTYCH_MUTANT(n) ? edited : original` (mutant.h). An edit that does not compile is replaced by another. Each suite
 runs once without edits, which gives its time and the edits that it reaches. It then tries these together, and each
 alone if a test fails or is late: unit tests first, then probes, then the others, the quickest first. A survivor is
 compiled alone; it is equivalent if object files or modules equal the original's. WORK/results.json keeps all results:
-the same command resumes. With --all, tests that can wait (longer.txt) try the survivors. Not seen: an edit that
-another survivor masks. An edit may delete or overwrite files: run this where little can be written.
+the same command resumes. With --all, tests that can wait (longer.txt) try the survivors. With --alone, the suite that
+noticed an edit runs whole with it: a TEST that failed alone is listed, as no test that is cheaper notices the edit.
+Not seen: an edit that another survivor masks. An edit may delete or overwrite files: run this where little can be
+written.
 """
 import argparse, collections, concurrent.futures, contextlib, functools, itertools, json, os, pathlib, random, re
 import signal, subprocess, tempfile, threading, time
@@ -431,6 +433,11 @@ class Run:
         suite["passed"] = [e.number for e in edits if e.by in OPEN and e.number in suite["reached"]]
         self.save()
 
+    def alone_in_suite(self, edit):
+        """The only TEST of the suite that notices the edit; None if several do."""
+        failed = self.start(self.suites[edit.test.partition(" ")[0]], [edit])
+        return failed[0] if len(failed) == 1 else None
+
     def equivalent(self, edit):
         """Whether object code and modules equal the original's. WORK/alone is a clone without other edits."""
         if not self.alone.exists():
@@ -474,6 +481,12 @@ class Run:
         for name, row in sorted(rows.items()):
             say(f"| {name.strip('~')} | " + " | ".join(str(row[h] or "") for h in heads) + " |")
         say(f"\nleft out, as they do not compile: {len(self.edits) - len(self.standing())}")
+        if self.options.alone:
+            noticed = [e for e in wanted if e.by in KINDS]
+            names = collections.Counter(filter(None, self.pool.map(self.alone_in_suite, noticed)))
+            say("\nedits that a TEST noticed alone:")
+            for name, count in sorted(names.items()):
+                say(f"{count} {name}")
 
 
 if __name__ == "__main__":
@@ -482,6 +495,7 @@ if __name__ == "__main__":
     parser.add_argument("paths", nargs="*")
     for name, default in dict(number=120, seed=1, since="", jobs=os.cpu_count()).items():
         parser.add_argument(f"--{name}", type=type(default), default=default)
-    parser.add_argument("--all", action="store_true")
+    for name in ("--all", "--alone"):
+        parser.add_argument(name, action="store_true")
     asked = parser.parse_args()
     Run(asked.work.resolve(), asked).go()

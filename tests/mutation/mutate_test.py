@@ -125,6 +125,8 @@ class Runs(unittest.TestCase):
                      "2,4/all", "/A.both", "2/A.both", "4/A.both", "4/all", "2/all"]
             self.assertEqual((work / "tried").read_text().split(), tried)
             self.assertEqual(again.edits[2].test, "probe (late)")
+            self.assertEqual(again.alone_in_suite(again.edits[0]), "A.one")
+            tried += ["1/all"]
             for suite in again.suites.values():  # nothing is tried twice
                 again.attempt(suite, again.edits)
             self.assertEqual((work / "tried").read_text().split(), tried)
