@@ -247,6 +247,7 @@ void checkSettings(const Settings& settings) {
 void checkMeasured(const Settings& settings) {
     if (isReference(settings.path))
         refuse("--path reference: errors are measured against it; use deferred or forward_plus");
+    if (const auto problem = settings.valueProblem()) throw std::runtime_error(*problem);
     checkSettings(referenceSettings(settings));
 }
 

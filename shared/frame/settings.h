@@ -108,6 +108,8 @@ struct Settings {
     // Why this combination is invalid or not supported, with the option and its value; nothing if it can
     // be rendered.
     std::optional<std::string> problem() const;
+    // The same of each value alone: what no other value can mend.
+    std::optional<std::string> valueProblem() const;
 
     // Calls visit(Field, pointer to member) for every row, in member order. In setting_rows.h.
     template <class Visit>

@@ -75,11 +75,16 @@ std::string quotedValue(const Settings& settings, std::string_view option) {
 
 }  // namespace
 
-std::optional<std::string> Settings::problem() const {
+std::optional<std::string> Settings::valueProblem() const {
     for (const Field& field : settingFields())
         if (field.valid.check && !field.valid.check(*this))
             return fmt::format("--{} {}: {}", field.option, quotedValue(*this, field.option),
                                field.valid.are);
+    return {};
+}
+
+std::optional<std::string> Settings::problem() const {
+    if (auto wrong = valueProblem()) return wrong;
     for (const Rule& rule : rules)
         if (auto broken = rule(*this)) return broken;
 
