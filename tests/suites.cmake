@@ -4,8 +4,7 @@
 # uploaded scenes.
 #
 # Environment, set by ./diptych test; without it everything runs:
-#   DIPTYCH_TIER=default   skips the tests of longer.txt; lavapipe does not optimise shaders, because small
-#     pictures take it longer to compile than to draw (MEASURED.md)
+#   DIPTYCH_TIER=default   skips the tests of longer.txt
 #   DIPTYCH_TESTS=NAME     only names that contain NAME: FOLDER.SUITE or FOLDER.SUITE.TEST, a process each
 #
 # Variables:
@@ -15,6 +14,9 @@
 #   validated: suites under the validation layers, in three further processes; all if empty. Others set
 #     DIPTYCH_VALIDATE=0.
 #   validated_by_all: further such suites, if no test is skipped
+#   optimised_by_all: suites in processes of their own, if no test is skipped. There lavapipe optimises shaders, as
+#     it does for users. Elsewhere it does not, because small images take it longer to compile than to draw
+#     (MEASURED.md).
 #   costs: names and seconds of the longest, which start first
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
@@ -32,9 +34,9 @@ if("$ENV{DIPTYCH_TIER}" STREQUAL default)
     string(APPEND left_out ":${pattern}")
   endforeach()
   string(REGEX REPLACE "^:" "-" left_out "${left_out}")
-  list(APPEND environment GALLIVM_PERF=nopt)
 else()
   list(APPEND validated ${validated_by_all})
+  set(optimised ${optimised_by_all})
 endif()
 execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=*${left_out}
   OUTPUT_VARIABLE lines RESULT_VARIABLE failed)
@@ -51,6 +53,9 @@ macro(run_in name pattern)
   if(validated AND is_validated EQUAL -1)
     set(validate_${name} DIPTYCH_VALIDATE=0)
   endif()
+  if(is_optimised EQUAL -1)
+    set(compile_${name} GALLIVM_PERF=nopt)
+  endif()
 endmacro()
 
 set(suites ${lines})
@@ -64,9 +69,10 @@ foreach(line IN LISTS lines)
     math(EXPR at "${at} + 1")
     string(FIND ${folder}.${short} "$ENV{DIPTYCH_TESTS}" suite_is_asked)
     list(FIND validated "${short}" is_validated)
+    list(FIND optimised "${short}" is_optimised)
     if(suite_is_asked EQUAL -1)
       continue()
-    elseif(processes EQUAL 0 OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
+    elseif(processes EQUAL 0 OR is_optimised GREATER -1 OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
       run_in(${folder}.${short} ${suite}.*)
     elseif(is_validated GREATER -1)
       math(EXPR number "(${at} - 1) * 3 / ${count} + 1")
@@ -98,5 +104,5 @@ foreach(name IN LISTS names)
     set(cost 50)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS ${folder} TIMEOUT ${seconds} COST ${cost}
-    ENVIRONMENT "${environment};${validate_${name}}")
+    ENVIRONMENT "${environment};${validate_${name}};${compile_${name}}")
 endforeach()

@@ -162,7 +162,7 @@ void lightRows(Visit& visit) {
                 .for_surfaces = "0"},
           &Settings::shadow_lights);
     visit(Field{.option = "shadow-size",
-                .help = "edge length of a shadow map or clipmap level, texels",
+                .help = "edge length of a shadow map, a clipmap level or the atlas of local lights, texels",
                 .valid = {"must be 16 to 16384",
                           [](const Settings& s) { return s.shadow_size >= 16 && isSide(s.shadow_size); }},
                 .default_only = {needs_shadows, hasShadows},
