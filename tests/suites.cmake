@@ -4,8 +4,8 @@
 # uploaded scenes.
 #
 # Environment, set by ./diptych test; without it everything runs:
-#   DIPTYCH_TIER=default   skips the tests of longer.txt; lavapipe does not optimise shaders, because small
-#     pictures take it longer to compile than to draw (MEASURED.md)
+#   DIPTYCH_TIER=default   skips the tests of longer.txt; otherwise only those for a campaign, if there is none
+#     (DIPTYCH_CAMPAIGN) and no name is asked for
 #   DIPTYCH_TESTS=NAME     only names that contain NAME: FOLDER.SUITE or FOLDER.SUITE.TEST, a process each
 #
 # Variables:
@@ -13,8 +13,9 @@
 #   seconds: limit of a process
 #   processes: number of processes that share the suites; 0: one for each suite
 #   validated: suites under the validation layers, in three further processes; all if empty. Others set
-#     DIPTYCH_VALIDATE=0.
-#   validated_by_all: further such suites, if no test is skipped
+#     DIPTYCH_VALIDATE=0, and lavapipe does not optimise their shaders: small pictures take it longer to compile
+#     than to draw (MEASURED.md). In the default tier it optimises none, in a campaign all.
+#   validated_by_all: further such suites, but in the default tier
 #   costs: names and seconds of the longest, which start first
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
@@ -25,16 +26,27 @@ endif()
 # glibc keeps freed memory for the next shader: lavapipe's compiler frees much of it.
 set(environment MALLOC_TRIM_THRESHOLD_=2000000000 MALLOC_MMAP_THRESHOLD_=33554432 MALLOC_TOP_PAD_=67108864)
 set(left_out "")
+set(waiting "^${folder}\\.")  # lines of longer.txt whose tests are skipped
+set(unoptimised GALLIVM_PERF=nopt)
 if("$ENV{DIPTYCH_TIER}" STREQUAL default)
-  file(STRINGS ${here}/longer.txt lines REGEX "^${folder}\\.")
+  list(APPEND environment ${unoptimised})
+else()
+  list(APPEND validated ${validated_by_all})
+  string(APPEND waiting ".* campaign: ")
+  if(NOT "$ENV{DIPTYCH_CAMPAIGN}" MATCHES "^0?$")
+    set(unoptimised "")
+    set(waiting "")
+  elseif(NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
+    set(waiting "")
+  endif()
+endif()
+if(waiting)
+  file(STRINGS ${here}/longer.txt lines REGEX "${waiting}")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE "^[^.]*\\.([^ ]*).*$" "\\1" pattern ${line})
     string(APPEND left_out ":${pattern}")
   endforeach()
   string(REGEX REPLACE "^:" "-" left_out "${left_out}")
-  list(APPEND environment GALLIVM_PERF=nopt)
-else()
-  list(APPEND validated ${validated_by_all})
 endif()
 execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=*${left_out}
   OUTPUT_VARIABLE lines RESULT_VARIABLE failed)
@@ -49,7 +61,7 @@ macro(run_in name pattern)
   list(APPEND names ${name})
   list(APPEND filter_${name} ${pattern})
   if(validated AND is_validated EQUAL -1)
-    set(validate_${name} DIPTYCH_VALIDATE=0)
+    set(validate_${name} DIPTYCH_VALIDATE=0 ${unoptimised})
   endif()
 endmacro()
 
