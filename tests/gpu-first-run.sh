@@ -424,7 +424,7 @@ case $amount in
         left_out+=" lights; the step \`other-pictures\`; of benchmarks, the"
         left_out+=" assignments every and per_object, other light counts, the step \`kernels\`. --long asks"
         left_out+=" all."$'\n'
-        parity='Builtin/BuiltinParity.FullIsBitEqual/*:Builtin/BuiltinParity.Prepass*/gallery'
+        parity='Builtin/BuiltinParity.FullIsBitEqual/*:Builtin/StandardParity.APrepass*/gallery'
         step parity 240 tests image_tests "$parity"
         step light-matrix 180 tests image_tests 'Lights/LightMatrix.*/spheres_*:*/gallery_257_*-*_4096_*'
         step light-pairs 240 tests image_tests 'Builtin/LightPairs.*'
@@ -436,9 +436,9 @@ case $amount in
         sponza_options=(--light-counts 64 --runs 3 --assign "clustered,tiled")
         ;;
     whole | long)
-        others='*-*/BuiltinParity.*:*/LightMatrix.*:*/LightPairs.*:*/Asset*:AssetScenes.*'
+        others='*-Builtin/*Parity.*:*/LightMatrix.*:*/LightPairs.*:*/Asset*:AssetScenes.*'
         others+=':LightExtremes.*:LightLists.*:LightNegativeControls.*'
-        step parity 3600 tests image_tests 'Builtin/BuiltinParity.*:Parity*:Verdict*'
+        step parity 3600 tests image_tests 'Builtin/*Parity.*:Parity*:Verdict*'
         step light-matrix 3600 tests image_tests 'Lights/LightMatrix.*'
         step light-pairs 3600 tests image_tests 'Builtin/LightPairs.*'
         step light-extremes 1800 tests image_tests 'LightExtremes.*:LightNegativeControls.*'

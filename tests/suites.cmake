@@ -5,6 +5,8 @@
 #
 # Environment, set by ./diptych test; without it everything runs:
 #   DIPTYCH_TIER=default   skips the tests of longer.txt
+#   DIPTYCH_CAMPAIGN=1     every test, with optimised shaders. Otherwise one in four of the lines `campaign:` of
+#     longer.txt, those that DIPTYCH_SEED (1) selects, or those that are asked for by name
 #   DIPTYCH_TESTS=NAME     only names that contain NAME: FOLDER.SUITE or FOLDER.SUITE.TEST, a process each
 #
 # Variables:
@@ -12,11 +14,9 @@
 #   seconds: limit of a process
 #   processes: number of processes that share the suites; 0: one for each suite
 #   validated: suites under the validation layers, in three further processes; all if empty. Others set
-#     DIPTYCH_VALIDATE=0.
-#   validated_by_all: further such suites, if no test is skipped
-#   optimised_by_all: suites in processes of their own, if no test is skipped. There lavapipe optimises shaders, as
-#     it does for users. Elsewhere it does not, because small images take it longer to compile than to draw
-#     (MEASURED.md).
+#     DIPTYCH_VALIDATE=0. Lavapipe optimises shaders of these suites alone, and none in the default tier: small
+#     images take it longer to compile than to draw (MEASURED.md).
+#   validated_by_all: further such suites, but in the default tier
 #   costs: names and seconds of the longest, which start first
 if(NOT EXISTS ${program})
   add_test(${folder}.NOT_BUILT ${program})
@@ -27,17 +27,31 @@ endif()
 # glibc keeps freed memory for the next shader: lavapipe's compiler frees much of it.
 set(environment MALLOC_TRIM_THRESHOLD_=2000000000 MALLOC_MMAP_THRESHOLD_=33554432 MALLOC_TOP_PAD_=67108864)
 set(left_out "")
-if("$ENV{DIPTYCH_TIER}" STREQUAL default)
-  file(STRINGS ${here}/longer.txt lines REGEX "^${folder}\\.")
-  foreach(line IN LISTS lines)
-    string(REGEX REPLACE "^[^.]*\\.([^ ]*).*$" "\\1" pattern ${line})
-    string(APPEND left_out ":${pattern}")
-  endforeach()
-  string(REGEX REPLACE "^:" "-" left_out "${left_out}")
-else()
+file(STRINGS ${here}/longer.txt waiting REGEX "^${folder}\\.")
+if(NOT "$ENV{DIPTYCH_TIER}" STREQUAL default)
   list(APPEND validated ${validated_by_all})
-  set(optimised ${optimised_by_all})
+  list(FILTER waiting INCLUDE REGEX " campaign: ")
+  if("$ENV{DIPTYCH_CAMPAIGN}" MATCHES "^0?$" AND "$ENV{DIPTYCH_TESTS}" STREQUAL "")
+    set(row "$ENV{DIPTYCH_SEED}")
+    if(NOT row)
+      set(row 1)
+    endif()
+  else()
+    set(waiting "")
+  endif()
 endif()
+foreach(line IN LISTS waiting)
+  if(DEFINED row)
+    math(EXPR row "${row} + 1")
+    math(EXPR turn "${row} % 4")
+    if(turn EQUAL 0)
+      continue()
+    endif()
+  endif()
+  string(REGEX REPLACE "^[^.]*\\.([^ ]*).*$" "\\1" pattern ${line})
+  string(APPEND left_out ":${pattern}")
+endforeach()
+string(REGEX REPLACE "^:" "-" left_out "${left_out}")
 execute_process(COMMAND ${program} --gtest_list_tests --gtest_filter=*${left_out}
   OUTPUT_VARIABLE lines RESULT_VARIABLE failed)
 if(failed)
@@ -53,7 +67,7 @@ macro(run_in name pattern)
   if(validated AND is_validated EQUAL -1)
     set(validate_${name} DIPTYCH_VALIDATE=0)
   endif()
-  if(is_optimised EQUAL -1)
+  if("$ENV{DIPTYCH_TIER}" STREQUAL default OR is_validated EQUAL -1 AND "$ENV{DIPTYCH_CAMPAIGN}" MATCHES "^0?$")
     set(compile_${name} GALLIVM_PERF=nopt)
   endif()
 endmacro()
@@ -69,10 +83,9 @@ foreach(line IN LISTS lines)
     math(EXPR at "${at} + 1")
     string(FIND ${folder}.${short} "$ENV{DIPTYCH_TESTS}" suite_is_asked)
     list(FIND validated "${short}" is_validated)
-    list(FIND optimised "${short}" is_optimised)
     if(suite_is_asked EQUAL -1)
       continue()
-    elseif(processes EQUAL 0 OR is_optimised GREATER -1 OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
+    elseif(processes EQUAL 0 OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
       run_in(${folder}.${short} ${suite}.*)
     elseif(is_validated GREATER -1)
       math(EXPR number "(${at} - 1) * 3 / ${count} + 1")

@@ -150,22 +150,17 @@ TEST(AlphaCoverage, OfOneAlphaIsAllOrNothing) {
     }
 }
 
-class AlphaCoverageOf : public testing::TestWithParam<std::string> {};
+class AlphaCoverageOf : public SceneTest {};
 
 // Both paths agree bit for bit, with or without a pre-pass and for any sample grouping. The image is
 // closer to the reference's (64 samples a pixel) than with binary masks.
 TEST_P(AlphaCoverageOf, IsTheSameInBothPathsAndNearerToTheTruth) {
-    const bool builtin = GetParam().starts_with("builtin:");
-    if (!builtin && !std::filesystem::exists(assets() / GetParam()))
-        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << assets() / GetParam()
-                     << "; the built-in scene proves it";
-    Renderer& renderer = uploaded(builtin ? GetParam() : (assets() / GetParam()).string()).renderer;
+    Renderer& renderer = uploaded(name()).renderer;
     Settings settings = covered({320, 180});
     const Frame forward = drawnBy(Path::forward_plus, renderer, settings, {Channel::lit});
     const auto same = [&](Path path, const std::string& what) {
         const Frame frame = drawnBy(path, renderer, settings, {Channel::lit});
-        EXPECT_EQ(differingPixels(forward.channels.at(Channel::lit), frame.channels.at(Channel::lit)), 0u)
-            << what;
+        EXPECT_EQ(differingPixels(forward, frame, Channel::lit), 0u) << what;
         EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << what;
     };
     for (const Switch prepass : {Switch::on, Switch::off}) {
@@ -180,10 +175,7 @@ TEST_P(AlphaCoverageOf, IsTheSameInBothPathsAndNearerToTheTruth) {
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
     settings.spp = 64;
-    RenderOptions options;
-    options.channels = {Channel::lit};
-    options.runs = 0;
-    const Image truth = renderer.draw(settings, options).channels.at(Channel::lit);
+    const Image truth = renderer.draw(settings, untimed({Channel::lit})).channels.at(Channel::lit);
     // The displayed error; exposure puts the 95th percentile at 0.7.
     std::vector<float> ordered(truth.data.begin(), truth.data.end());
     const auto p95 = ordered.begin() + static_cast<std::ptrdiff_t>(ordered.size() * 95 / 100);
@@ -197,13 +189,13 @@ TEST_P(AlphaCoverageOf, IsTheSameInBothPathsAndNearerToTheTruth) {
         return sum;
     };
     const Frame cut = drawnBy(Path::forward_plus, renderer, covered({320, 180}, false), {Channel::lit});
-    EXPECT_GT(differingPixels(cut.channels.at(Channel::lit), forward.channels.at(Channel::lit)), 20u);
+    EXPECT_GT(differingPixels(cut, forward, Channel::lit), 20u);
     EXPECT_LT(error(forward.channels.at(Channel::lit)), 0.8 * error(cut.channels.at(Channel::lit)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Msaa, AlphaCoverageOf,
                          testing::Values("builtin:cutout", "features/alpha_mask/01_alpha_mask.gltf"),
-                         [](const auto& scene) { return testName(scene.param); });
+                         sceneName);
 
 // `coverage` shades every sample of a pixel that a mask covers partly, as if a triangle's edge did.
 TEST(AlphaCoverage, CoverageEdgesKnowOfMasks) {
@@ -223,7 +215,7 @@ TEST(AlphaCoverage, CoverageEdgesKnowOfMasks) {
     const Frame exact = drawnBy(Path::deferred, renderer, settings, {Channel::lit});
     settings.msaa_edges = MsaaEdges::coverage;
     const Frame coverage = drawnBy(Path::deferred, renderer, settings, {Channel::lit});
-    EXPECT_EQ(differingPixels(exact.channels.at(Channel::lit), coverage.channels.at(Channel::lit)), 0u);
+    EXPECT_EQ(differingPixels(exact, coverage, Channel::lit), 0u);
 }
 
 TEST(AlphaCoverage, HasNoMeaningWhereSamplesAreShadedApart) {

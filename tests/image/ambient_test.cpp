@@ -118,7 +118,7 @@ TEST(Ambient, IsExactlyNothingWhereNoneIsAskedFor) {
 }
 
 // The table's error is at most 6e-5; float32 adds far less. 1e-4 is the tolerance of every light.
-class AmbientReference : public testing::TestWithParam<const char*> {};
+class AmbientReference : public testing::TestWithParam<std::string> {};
 
 TEST_P(AmbientReference, BothPathsAreTheIntegral) {
     const Scene scene = loadScene(GetParam());
@@ -127,10 +127,8 @@ TEST_P(AmbientReference, BothPathsAreTheIntegral) {
     settings.path = Path::reference;
     settings.size = size;
     settings.ambient = {0.3f, 0.4f, 0.5f};
-    RenderOptions options;
-    options.channels = {Channel::lit_ambient, Channel::material_id};
-    options.runs = 0;
-    const Frame referenceFrame = drawAll(scene, {settings}, options).front();
+    const Frame referenceFrame =
+        drawAll(scene, {settings}, untimed({Channel::lit_ambient, Channel::material_id})).front();
     for (const Frame& path : drawIn(scene, settings.ambient, size)) {
         const Coverage covered = coverage(referenceFrame, path);
         const DebugMode& mode = debugMode(Channel::lit_ambient);
@@ -146,7 +144,7 @@ TEST_P(AmbientReference, BothPathsAreTheIntegral) {
 INSTANTIATE_TEST_SUITE_P(Builtin, AmbientReference,
                          testing::Values("builtin:furnace", "builtin:gallery", "builtin:dielectrics",
                                          "builtin:normals", "builtin:lightmaps"),
-                         [](const auto& scene) { return testName(std::string(scene.param).substr(8)); });
+                         sceneName);
 
 }  // namespace
 }  // namespace diptych::tests

@@ -23,10 +23,7 @@ void moveMaterial(Scene& scene, AnimatedPart part, std::vector<float> values, in
 
 Scene squareBeforeAnother() {
     Scene scene = square();
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = glm::normalize(glm::dvec3(0.3, 0.2, -1));
-    scene.lights = {sun};
+    scene.lights = {sunAlong(glm::normalize(glm::dvec3(0.3, 0.2, -1)))};
     // A square behind it, visible through transmission.
     scene.materials.push_back({});
     scene.materials[1].base_color = {0.1f, 0.7f, 0.3f, 1};
@@ -149,9 +146,7 @@ TEST(AnimatedMaterials, MotionChangesTheImage) {
         settings.time = 1;
         const std::vector<Frame> end = bothPaths(renderer, settings, {Channel::lit});
         for (std::size_t path = 0; path < 2; ++path)
-            EXPECT_GT(differingPixels(start[path].channels.at(Channel::lit),
-                                      end[path].channels.at(Channel::lit), true),
-                      30u)
+            EXPECT_GT(differingPixels(start[path], end[path], Channel::lit, true), 30u)
                 << c.name << " " << start[path].name;
     }
 }

@@ -15,10 +15,7 @@ Frame drawAreas(Renderer& renderer, Path path, AreaLights how, Assignment assign
     settings.path = path;
     settings.assign = assign;
     settings.area_lights = how;
-    RenderOptions options;
-    options.channels = {Channel::lit, Channel::lit_diffuse, Channel::lit_specular};
-    options.runs = 0;
-    return renderer.draw(settings, options);
+    return renderer.draw(settings, untimed({Channel::lit, Channel::lit_diffuse, Channel::lit_specular}));
 }
 
 TEST(AreaLightImages, BothPathsAndEveryListAgree) {
@@ -34,7 +31,7 @@ TEST(AreaLightImages, BothPathsAndEveryListAgree) {
             for (const Assignment assign : {Assignment::every, Assignment::clustered, Assignment::tiled}) {
                 const Frame frame = drawAreas(renderer, path, how, assign);
                 for (const Channel channel : {Channel::lit, Channel::lit_diffuse, Channel::lit_specular})
-                    EXPECT_EQ(differingPixels(every.channels.at(channel), frame.channels.at(channel)), 0u)
+                    EXPECT_EQ(differingPixels(every, frame, channel), 0u)
                         << nameOf(how) << ", " << nameOf(path) << ", " << nameOf(assign) << ", "
                         << debugMode(channel).name;
             }
@@ -77,7 +74,7 @@ TEST(AreaLightImages, TheWayChangesNothingWithoutThem) {
     Renderer renderer(device(), scene, pipelines());
     const Frame a = drawAreas(renderer, Path::deferred, AreaLights::ltc, Assignment::every);
     const Frame b = drawAreas(renderer, Path::deferred, AreaLights::representative, Assignment::every);
-    EXPECT_EQ(differingPixels(a.channels.at(Channel::lit), b.channels.at(Channel::lit)), 0u);
+    EXPECT_EQ(differingPixels(a, b, Channel::lit), 0u);
 }
 
 }  // namespace

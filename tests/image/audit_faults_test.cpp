@@ -124,11 +124,7 @@ Scene highlight() {
     Scene scene = square();
     scene.materials[0].metallic = 1;
     scene.cameras[0].yfov = 0.02 * std::numbers::pi / 180;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {0, 0, -1};
-    sun.intensity = 1;
-    scene.lights = {sun};
+    scene.lights = {sunAlong({0, 0, -1}, 1)};
     return scene;
 }
 

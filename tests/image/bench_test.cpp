@@ -54,11 +54,8 @@ TEST(PreparedFrames, GoingFromOneModeToAnotherMakesNoPipelineAndChangesNoBit) {
     EXPECT_EQ(renderer.pipelines(), pipelines);
     EXPECT_FALSE(frames.profile(0).empty());
     // The same when a Renderer draws by itself.
-    RenderOptions options;
-    options.channels = {Channel::lit};
-    options.runs = 0;
     for (std::size_t i = 0; i < modes.size(); ++i) {
-        const Frame frame = renderer.draw(modes[i], options);
+        const Frame frame = renderer.draw(modes[i], untimed({Channel::lit}));
         EXPECT_EQ(frame.channels.at(Channel::lit).data, first[i].data);
         EXPECT_EQ(frames.described(i).counters.lights, frame.counters.lights);
     }

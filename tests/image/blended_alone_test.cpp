@@ -19,9 +19,7 @@ Scene blendedPane(bool wall) {
         scene.meshes[1].primitives[0].material = 1;
         scene.nodes.push_back({"wall", -1, glm::translate(glm::dmat4(1), {0.3, 0, -1}), 1});
     }
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {0, -0.6, -0.8};
+    const Light sun = sunAlong({0, -0.6, -0.8});
     Light lamp;
     lamp.position = {0.5, 0.5, 0.5};
     lamp.intensity = 3;
@@ -47,13 +45,11 @@ TEST(BlendedAlone, HasNoGBufferAndTheSameImage) {
             EXPECT_EQ(std::ranges::count(passes, "G-buffer"), wall ? 1 : 0) << text;
             Settings forward = settings;
             forward.path = Path::forward_plus;
-            RenderOptions options;
-            options.channels = std::vector<Channel>{Channel::lit, Channel::material_id, albedo,
-                                                    Channel::depth, Channel::geometric_normal};
-            options.runs = 0;
+            const RenderOptions options = untimed(
+                {Channel::lit, Channel::material_id, albedo, Channel::depth, Channel::geometric_normal});
             const std::vector<Frame> frames = drawAll(scene, {settings, forward}, options);
             for (const Channel channel : options.channels)
-                EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
+                EXPECT_EQ(differingPixels(frames[0], frames[1], channel), 0u)
                     << text << " " << debugMode(channel).name << (wall ? ", with a wall" : "");
             const Image& image = frames[0].channels.at(Channel::lit);
             EXPECT_GT(*image.pixel(image.pixels() / 2), 0) << "the pane is seen";

@@ -57,10 +57,7 @@ TEST(BlendedShadow, IsTheSameWithEveryFitAndWithPages) {
     settings.shadows = Shadows::pcf;
     Settings truth = settings;
     truth.path = Path::reference;
-    RenderOptions options;
-    options.channels = {Channel::lit};
-    options.runs = 0;
-    const Frame reference = renderer.draw(truth, options);
+    const Frame reference = renderer.draw(truth, untimed({Channel::lit}));
     Settings depth = settings, pages = settings;
     depth.shadow_fit = ShadowFit::depth;
     pages.shadows = Shadows::clipmap;
@@ -68,8 +65,7 @@ TEST(BlendedShadow, IsTheSameWithEveryFitAndWithPages) {
     pages.clipmap_pages = 2048;
     for (const Settings& each : {settings, depth, pages}) {
         const std::vector<Frame> frames = bothPaths(renderer, each, {Channel::lit});
-        EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)),
-                  0u);
+        EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::lit), 0u);
         EXPECT_LE(wrongFraction(frames[0], reference), 6.0 / 77)
             << nameOf(each.shadows) << " " << nameOf(each.shadow_fit);
     }

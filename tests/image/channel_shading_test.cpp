@@ -26,7 +26,7 @@ std::vector<Channel> shadedChannels() {
     return modes;
 }
 
-class ChannelShadingOf : public testing::TestWithParam<const char*> {};
+class ChannelShadingOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(ChannelShadingOf, OwnChannelsGiveOwnLit) {
     const Scene scene = loadScene(GetParam());
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ChannelShadingOf,
                          testing::Values("builtin:gallery", "builtin:spheres", "builtin:cutout",
                                          "builtin:glass", "builtin:dielectrics", "builtin:areas",
                                          "builtin:lightmaps"),
-                         [](const auto& test) { return testName(test.param); });
+                         sceneName);
 
 }  // namespace
 }  // namespace diptych::tests

@@ -19,9 +19,7 @@ namespace {
 
 // Pages of 32 texels: a 160 x 90 image requests about a hundred.
 Settings paged(GBufferEncoding encoding, int pages = 512, int kernel = 3) {
-    Settings settings = smallImage(encoding);
-    settings.shadows = Shadows::clipmap;
-    settings.shadow_size = 512;
+    Settings settings = with(smallImage(encoding), "shadows clipmap shadow-size 512");
     settings.shadow_kernel = kernel;
     settings.clipmap_page_size = 32;
     settings.clipmap_pages = pages;
@@ -29,10 +27,7 @@ Settings paged(GBufferEncoding encoding, int pages = 512, int kernel = 3) {
 }
 
 Frame drawnWith(Renderer& renderer, const Settings& settings, const std::vector<Channel>& channels) {
-    RenderOptions options;
-    options.channels = channels;
-    options.runs = 0;
-    return renderer.draw(settings, options);
+    return renderer.draw(settings, untimed(channels));
 }
 
 std::string cameraAt(const glm::dvec3& eye, const glm::dvec3& target) {
@@ -62,7 +57,7 @@ TEST_P(ClipmapPaths, SeeTheSame) {
         if (settings.gbuffer == GBufferEncoding::full) channels.push_back(Channel::lit);
         const std::vector<Frame> frames = bothPaths(renderer, settings, channels);
         for (const Channel channel : channels)
-            EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
+            EXPECT_EQ(differingPixels(frames[0], frames[1], channel), 0u)
                 << debugMode(channel).name << ", pool " << settings.clipmap_pages;
         for (const Frame& frame : frames) expectCounted(frame, settings.clipmap_pages);
         return frames[0];
@@ -89,10 +84,8 @@ TEST_P(ClipmapPaths, SeeTheSame) {
 // one pixel in 2,000 is falsely lit, and as many falsely dark.
 TEST_P(ClipmapPaths, AreTheReferencesAwayFromEdges) {
     Renderer& renderer = uploaded(GetParam()).renderer;
-    Settings settings = paged(GBufferEncoding::full, 4096);
-    settings.size = {320, 180};
-    settings.shadow_size = 2048;
-    settings.clipmap_page_size = 64;
+    Settings settings =
+        with(paged(GBufferEncoding::full, 4096), "size 320x180 shadow-size 2048 clipmap-page-size 64");
     Settings truth = settings;
     truth.path = Path::reference;
     const std::vector<Channel> channels{Channel::shadow_visibility, Channel::cascade, Channel::page_residency,
@@ -137,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ClipmapPaths,
                          testing::Values("builtin:gallery", "builtin:spheres", "builtin:suns",
                                          "builtin:ortho", "builtin:cutout", "builtin:deep",
                                          "builtin:far_away"),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+                         sceneName);
 
 // Draws the ground alone, all of which must be lit. Returns the finest level that it requests.
 float expectLit(double degrees, double scale, const Settings& settings) {
@@ -218,8 +211,7 @@ TEST(ClipmapCached, EqualsRedrawn) {
                     redrawn = drawnWith(anew, settings,
                                         {Channel::lit, Channel::shadow_visibility, Channel::page_residency});
         for (const Channel channel : {Channel::lit, Channel::shadow_visibility, Channel::page_residency})
-            EXPECT_EQ(differingPixels(kept.channels.at(channel), redrawn.channels.at(channel)), 0u)
-                << where << " " << debugMode(channel).name;
+            EXPECT_EQ(differingPixels(kept, redrawn, channel), 0u) << where << " " << debugMode(channel).name;
         EXPECT_LT(kept.counters.shadow_pages.drawn, redrawn.counters.shadow_pages.drawn) << where;
     };
     const glm::dvec3 from(4, 2, 4), target(0, 0.5, 0);
@@ -371,10 +363,8 @@ std::pair<float, float> seenBetween(const Frame& frame, const glm::dvec3& eye, d
 TEST(ClipmapTable, NoEntryNamesAnotherPagesSlot) {
     const Scene scene = groundUnder(sunAt(45), {board(1)});
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = paged(GBufferEncoding::standard, 4096);
-    settings.size = {320, 180};
-    settings.shadow_size = 2048;
-    settings.clipmap_page_size = 64;
+    Settings settings =
+        with(paged(GBufferEncoding::standard, 4096), "size 320x180 shadow-size 2048 clipmap-page-size 64");
     const glm::dvec3 eyes[] = {{0.4, 6, 2.5}, {-2, 3, -2}, {1, 5, -3}, {-1, 4, 3}, {0.4, 6, 2.5}};
     std::uint64_t max = 0;
     for (const glm::dvec3& eye : eyes) {

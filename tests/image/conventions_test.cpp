@@ -32,10 +32,7 @@ constexpr std::array conventions{
 class Conventions : public testing::TestWithParam<Convention> {};
 
 Settings withConvention(const Convention& convention, bool switched) {
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.shadows = Shadows::off;
-    settings.size = {96, 54};
-    settings.ambient = {0.3f, 0.4f, 0.5f};
+    Settings settings = with(smallImage(GBufferEncoding::full), "shadows off size 96x54 ambient 0.3,0.4,0.5");
     settings.multiscatter = convention.multiscatter;
     if (switched) settings.set(convention.option, convention.value);
     return settings;
@@ -46,10 +43,8 @@ Settings withConvention(const Convention& convention, bool switched) {
 TEST_P(Conventions, BothPathsAreTheReference) {
     const Convention& convention = GetParam();
     UploadedScene& scene = uploaded(convention.scene);
-    RenderOptions options;
-    options.channels = {Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse,
-                        Channel::material_id};
-    options.runs = 0;
+    const RenderOptions options =
+        untimed({Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse, Channel::material_id});
     struct Drawn {
         Frame reference;
         std::vector<Frame> paths;
@@ -90,7 +85,7 @@ TEST_P(Conventions, BothPathsAreEqualBitForBit) {
     UploadedScene& scene = uploaded(convention.scene);
     const std::vector<Frame> both =
         bothPaths(scene.renderer, withConvention(convention, true), {Channel::lit});
-    EXPECT_EQ(differingPixels(both[0].channels.at(Channel::lit), both[1].channels.at(Channel::lit)), 0u);
+    EXPECT_EQ(differingPixels(both[0], both[1], Channel::lit), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, Conventions, testing::ValuesIn(conventions), [](const auto& test) {
@@ -122,9 +117,7 @@ TEST(ConventionsExplained, EachIsNamedOfAnotherProgramsImage) {
         settings.path = drawn_paths[1];
         settings.shadows = Shadows::off;
         settings.size = {96, 54};
-        RenderOptions options;
-        options.channels = explainedChannels();
-        options.runs = 0;
+        const RenderOptions options = untimed(explainedChannels());
         const Frame ours = renderer.draw(settings, options);
         Settings theirs = settings;
         for (const auto& [option, value] : had) theirs.set(option, value);
@@ -154,13 +147,8 @@ TEST(ConventionsExplained, SoIsHowItTurnsNormalsOfSkins) {
     const Scene scene = loadScene("builtin:motion");
     SceneViews views(scene);
     Renderer renderer(device(), views, pipelines());
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.path = Path::forward_plus;
-    settings.size = {96, 54};
-    settings.time = 0.7;
-    RenderOptions options;
-    options.channels = explainedChannels();
-    options.runs = 0;
+    Settings settings = with(smallImage(GBufferEncoding::full), "path forward_plus size 96x54 time 0.7");
+    const RenderOptions options = untimed(explainedChannels());
     const Frame ours = renderer.draw(settings, options);
     for (const SkinNormals normals : {SkinNormals::joints, SkinNormals::blended}) {
         Settings theirs = settings;

@@ -33,10 +33,7 @@ public:
     Frame reference() const {
         Settings settings = underSky({64, 36});
         settings.path = Path::reference;
-        RenderOptions options;
-        options.channels = shown;
-        options.runs = 0;
-        return drawAll(scene, {settings}, options).front();
+        return drawAll(scene, {settings}, untimed(shown)).front();
     }
 
     Scene scene = loadScene("builtin:lightmaps");
@@ -68,8 +65,7 @@ TEST(EnvironmentLight, BasesWithALightmapTakeNothingOfIt) {
     check(full, " full ");
     EXPECT_EQ(mapped.size(), 8u);
     for (const Channel channel : shown)
-        EXPECT_EQ(differingPixels(full[0].channels.at(channel), full[1].channels.at(channel)), 0u)
-            << debugMode(channel).name;
+        EXPECT_EQ(differingPixels(full[0], full[1], channel), 0u) << debugMode(channel).name;
     // The floor's lightmap exceeds the range of 9.9.9.e5.
     lightmaps.scene.materials[0].lightmap_intensity = 1e4f;
     check(lightmaps.paths(GBufferEncoding::standard), " wide ");

@@ -21,9 +21,7 @@ Scene spheresUnderLamp() {
 }
 
 Settings byEnvironment() {
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.size = {48, 27};
-    settings.shadows = Shadows::off;
+    Settings settings = with(smallImage(GBufferEncoding::full), "size 48x27 shadows off");
     return settings;
 }
 
@@ -32,9 +30,7 @@ public:
     explicit EvaluatedEnvironment(const Settings& settings) : settings_(settings) {
         Settings truth = settings;
         truth.path = Path::reference;
-        RenderOptions options;
-        options.channels = allChannels();
-        options.runs = 0;
+        RenderOptions options = untimed(allChannels());
         options.environment_errors = true;
         reference_ = renderer_.draw(truth, options);
     }

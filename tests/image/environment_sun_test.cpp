@@ -61,10 +61,7 @@ Settings withSun() {
 
 Frame referenceOf(Renderer& renderer, Settings settings) {
     settings.path = Path::reference;
-    RenderOptions options;
-    options.channels = sunChannels;
-    options.runs = 0;
-    return renderer.draw(settings, options);
+    return renderer.draw(settings, untimed(sunChannels));
 }
 
 // Expected: E / pi of the uniform sky everywhere, plus the sun outside its shadow. The solid angle of a
@@ -74,7 +71,7 @@ TEST(EnvironmentSunLight, LightsAndCastsShadows) {
     const Scene scene = sunlitSquare();
     Renderer renderer(device(), scene, pipelines());
     std::vector<Frame> frames = bothPaths(renderer, withSun(), sunChannels);
-    EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u);
+    EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::lit), 0u);
     frames.push_back(referenceOf(renderer, withSun()));
     for (const Frame& frame : frames) {
         const double tolerance = frame.settings.path == Path::reference ? 0.01 * even : 1e-5;
@@ -99,9 +96,7 @@ TEST(EnvironmentSunLight, LightsAndCastsShadows) {
 TEST(EnvironmentSunLight, TurnsAndIsScaledWithTheEnvironment) {
     const Scene scene = sunlitSquare();
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = withSun();
-    settings.shadows = Shadows::off;
-    settings.ibl_intensity = 2;
+    Settings settings = with(withSun(), "shadows off ibl-intensity 2");
     const double lit_by_sun = sunLux * toSun.z / std::numbers::pi;
     for (const auto& [turned, expected] : {std::pair{0.0f, 2 * (even + lit_by_sun)},
                                            {180.0f, 2 * even},
@@ -171,13 +166,10 @@ TEST(EnvironmentSunLight, WithoutOneNothingChanges) {
 TEST(EnvironmentSunLight, BothPathsAreEqualBitForBit) {
     Scene scene = loadScene("builtin:lightmaps");
     scene.environment = sunny();
-    Settings settings = withSun();
-    settings.size = {96, 54};
-    settings.env_rotation = 33;
+    Settings settings = with(withSun(), "size 96x54 env-rotation 33");
     const std::vector<Frame> frames = bothPaths(scene, settings, sunChannels);
     for (const Channel channel : sunChannels)
-        EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u)
-            << debugMode(channel).name;
+        EXPECT_EQ(differingPixels(frames[0], frames[1], channel), 0u) << debugMode(channel).name;
 }
 
 }  // namespace

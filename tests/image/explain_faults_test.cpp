@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How often an explanation names an injected fault: over fifty single faults, each in at least twenty
-// views that are sensitive to it, and pairs of them.
+// How often an explanation names an injected fault: over fifty single faults, each in several views that are
+// sensitive to it (a campaign: twenty), and pairs of them.
 #include "tests/image/injected_faults.h"
 
 #include <fmt/format.h>
@@ -16,8 +16,9 @@
 namespace diptych::tests {
 namespace {
 
-// Number of views for each fault and each pair; all of them would take a minute.
-constexpr std::size_t minCases = 20, minPairCases = 10;
+// Number of views for each fault and each pair: a campaign's rates are statistics, the others find a cause
+// that is no longer named.
+const std::size_t minCases = isCampaign() ? 20 : 4, minPairCases = isCampaign() ? 10 : 3;
 
 bool isAmong(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::count(names, name) > 0;
@@ -79,7 +80,7 @@ TEST(ExplainFaults, ASingleFaultIsNamedFirst) {
     std::string table = fmt::format("{:<62} {:>3} {:>7} {:>9}\n", "fault", "in", "named", "its share");
     for (const InjectedFault& fault : faults) {
         Tally tally;
-        for (InjectedView* const view : injectedViews(fault.kind)) {
+        for (std::size_t i = 0; InjectedView* const view = injectedView(fault.kind, i); ++i) {
             if (tally.cases == minCases) break;
             const Frame test = view->with(fault);
             const Image &a = view->right.channels.at(Channel::lit), &b = test.channels.at(Channel::lit);
@@ -102,7 +103,7 @@ TEST(ExplainFaults, TheLightIsNamedToo) {
     for (const InjectedFault& fault : injectedFaults()) {
         if (!fault.of_first_light) continue;
         Tally tally;
-        for (InjectedView* const view : injectedViews(fault.kind)) {
+        for (std::size_t i = 0; InjectedView* const view = injectedView(fault.kind, i); ++i) {
             if (tally.cases == minCases) break;
             if (!view->feels(fault)) continue;
             const Explanation e = view->explained(view->with(fault));
@@ -198,7 +199,7 @@ TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
         const ViewKind kind = first.kind == ViewKind::blended ? first.kind : second.kind;
         Tally tally;
         std::size_t redundant = 0, hiding = 0;
-        for (InjectedView* const view : injectedViews(kind)) {
+        for (std::size_t i = 0; InjectedView* const view = injectedView(kind, i); ++i) {
             if (tally.cases == minPairCases) break;
             if (!view->feels(first) || !view->feels(second)) continue;
             const std::array<const InjectedFault*, 2> both{&first, &second};
@@ -214,7 +215,7 @@ TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
         EXPECT_GE(tally.cases, minPairCases) << pair.first << " + " << pair.second;
         EXPECT_GE(tally.rate(), 0.9) << pair.first << " + " << pair.second << tally.missed;
         if (pair.sign != 0) {
-            EXPECT_GE(pair.sign < 0 ? redundant : hiding, 9 * tally.cases / 10)
+            EXPECT_GE(10 * (pair.sign < 0 ? redundant : hiding), 9 * tally.cases)
                 << pair.first << " + " << pair.second;
         }
     }
@@ -223,7 +224,8 @@ TEST(ExplainFaults, BothOfTwoFaultsAreNamed) {
 
 TEST(ExplainFaults, IdenticalFramesHaveNoCause) {
     for (const ViewKind kind : {ViewKind::opaque, ViewKind::blended})
-        for (InjectedView* const view : injectedViews(kind)) {
+        for (std::size_t i = 0; i < minCases; ++i) {
+            InjectedView* const view = injectedView(kind, i);
             const Explanation e = view->explained(view->right);
             EXPECT_EQ(e.distance, 0) << view->name;
             EXPECT_TRUE(e.causes.empty()) << view->name;

@@ -138,7 +138,7 @@ bool hasEffect(const Explanation& e) {
     return e.distance > 0;
 }
 
-class ExplainOf : public testing::TestWithParam<const char*> {};
+class ExplainOf : public testing::TestWithParam<std::string> {};
 
 // Each fault alone is the only cause, explains everything, and contributions add up.
 TEST_P(ExplainOf, NamesEachPlantedFault) {
@@ -193,7 +193,7 @@ TEST_P(ExplainOf, NamesBothOfTwoFaults) {
 
 INSTANTIATE_TEST_SUITE_P(Builtin, ExplainOf,
                          testing::Values("builtin:gallery", "builtin:spheres", "builtin:dielectrics"),
-                         [](const auto& test) { return testName(test.param); });
+                         sceneName);
 
 TEST(Explain, OfTheSameFrameHasNoCause) {
     Injected injected("builtin:points", {64, 36});

@@ -88,9 +88,7 @@ TEST(TextureFilters, AreOffByWhatTheDeviceMeasuresAndNoMore) {
     settings.size = {filteredPixels, filteredPixels};
     const auto traced = [&](const Scene& of) {
         SceneViews views(of);
-        Settings asked = settings;
-        asked.path = Path::reference;
-        asked.reference_mode = ReferenceMode::scene;
+        Settings asked = with(settings, "path reference reference-mode scene");
         RenderOptions options;
         options.channels = allChannels();
         return drawReferenceFrame(of, views.at(viewRequest(asked)), asked, nullptr, options);

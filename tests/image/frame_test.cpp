@@ -69,17 +69,14 @@ TEST(FrameOf, InputsThatChangeAreDrawnAfresh) {
     Settings before = smallImage(GBufferEncoding::standard), after = before;
     after.camera = "eye=1,1.5,2 target=0,1,-3 fov=50";
     after.lights = "point:8";
-    RenderOptions options;
-    options.channels = allChannels();
-    options.runs = 0;
+    const RenderOptions options = untimed(allChannels());
     for (const Path path : {Path::deferred, Path::forward_plus}) {
         before.path = after.path = path;
         const Frame second = drawAll(scene, {before, after}, options)[1];
         const Frame alone = drawAll(scene, {after}, options)[0];
         const Frame first = drawAll(scene, {before}, options)[0];
         expectSameChannels(second, alone);
-        EXPECT_GT(differingPixels(first.channels.at(Channel::lit), second.channels.at(Channel::lit)), 0u)
-            << "the change must show at all";
+        EXPECT_GT(differingPixels(first, second, Channel::lit), 0u) << "the change must show at all";
     }
 }
 

@@ -29,7 +29,7 @@ std::shared_ptr<PipelineSet> gpuPipelines() {
 // One channel of each kind: lighting, surface, light list, depth.
 const std::vector<Channel> channels{Channel::lit, Channel::normals, Channel::light_count, Channel::position};
 
-class GpuChoices : public testing::TestWithParam<const char*> {};
+class GpuChoices : public testing::TestWithParam<std::string> {};
 
 TEST_P(GpuChoices, DrawTheSameImages) {
     const Scene scene = loadScene(GetParam());
@@ -51,7 +51,7 @@ TEST_P(GpuChoices, DrawTheSameImages) {
 INSTANTIATE_TEST_SUITE_P(Chosen, GpuChoices,
                          testing::Values("builtin:cutout", "builtin:ortho", "builtin:points",
                                          "builtin:spheres"),
-                         [](const auto& test) { return testName(test.param); });
+                         sceneName);
 
 // Modules with flattened branches give the same bits, with every type of light: the most branches.
 TEST(GpuChoice, FlattenedBranchesDrawTheSameImages) {
@@ -115,10 +115,7 @@ TEST(GpuChoice, SamplesAreShadedFromAListOrByDraws) {
 // For many triangles, and for many instances.
 TEST(GpuChoice, DrawsAreDividedOnASoftwareDevice) {
     const auto stamps = [](Device& on, const std::shared_ptr<PipelineSet>& set, const Scene& scene) {
-        Settings settings = smallImage(GBufferEncoding::standard);
-        settings.path = Path::deferred;
-        settings.shadows = Shadows::off;
-        settings.cull = false;
+        Settings settings = with(smallImage(GBufferEncoding::standard), "path deferred shadows off cull off");
         SharedResources shared(on, scene, set);
         const SceneView view = makeSceneView(scene, viewRequest(settings));
         PreparedFrame(on, shared, view, settings).passes.run();
@@ -137,9 +134,7 @@ TEST(GpuChoice, DrawsAreDividedOnASoftwareDevice) {
 // The chosen options are in effect: each is visible in the frame.
 TEST(GpuChoice, IsWhatAFrameIsMadeOf) {
     const Scene scene = loadScene("builtin:points");
-    Settings settings = smallImage(GBufferEncoding::standard);
-    settings.path = Path::forward_plus;
-    settings.prepass = Switch::on;
+    Settings settings = with(smallImage(GBufferEncoding::standard), "path forward_plus prepass on");
     SharedResources shared(asGpu(), scene, gpuPipelines());
     const SceneView view = makeSceneView(scene, viewRequest(settings));
     const PreparedFrame frame(asGpu(), shared, view, settings);

@@ -25,9 +25,7 @@ const std::vector<Channel> hazeShown{Channel::lit,
                                      Channel::material_id};
 
 Settings hazeImage(float density, int steps = 0) {
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.size = {96, 54};
-    settings.haze = true;
+    Settings settings = with(smallImage(GBufferEncoding::full), "size 96x54 haze on");
     settings.haze_density = density;
     settings.haze_march_steps = steps;
     return settings;
@@ -37,13 +35,11 @@ Settings hazeImage(float density, int steps = 0) {
 TEST(HazeImages, BothPathsAreEqualBitForBitAndApplyItOnce) {
     for (const char* name : {"builtin:suns", "builtin:deep", "builtin:ortho", "builtin:unlit_materials"})
         for (const int steps : {0, 6}) {
-            Settings settings = hazeImage(3000, steps);
-            settings.haze_mie_height = 50;
-            settings.ambient = {0.1f, 0.2f, 0.3f};
+            Settings settings = with(hazeImage(3000, steps), "haze-mie-height 50 ambient 0.1,0.2,0.3");
             const std::vector<Frame> frames = bothPaths(uploaded(name).renderer, settings, hazeShown);
             const std::string what = fmt::format("{}, {} steps", name, steps);
             for (const Channel mode : hazeShown)
-                EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
+                EXPECT_EQ(differingPixels(frames[0], frames[1], mode), 0u)
                     << what << ", " << debugMode(mode).name;
             std::size_t applied = 0;
             for (const Frame& frame : frames) {
@@ -76,9 +72,7 @@ TEST(HazeImages, NothingElseFeelsIt) {
     Settings settings = hazeImage(300);
     settings.haze_rayleigh_height = settings.haze_mie_height = 20;  // or no sun would come through
     settings.gbuffer = GBufferEncoding::standard;
-    Settings without = settings;
-    without.haze = false;
-    without.haze_density = 1;
+    Settings without = with(settings, "haze off haze-density 1");
     for (const Path path : drawn_paths) {
         const Frame a = drawnBy(path, scene.renderer, settings), b = drawnBy(path, scene.renderer, without);
         for (const auto& [mode, image] : b.channels) {
@@ -93,9 +87,7 @@ TEST(HazeImages, NothingElseFeelsIt) {
 // or memory is added.
 TEST(HazeImages, OfDensityZeroIsNone) {
     UploadedScene& scene = uploaded("builtin:deep");
-    Settings none = hazeImage(1);
-    none.haze = false;
-    none.size = {64, 36};
+    Settings none = with(hazeImage(1), "haze off size 64x36");
     Settings zero = none, clear = none;
     zero.haze = clear.haze = true;
     zero.haze_density = 0;
@@ -131,9 +123,7 @@ TEST(HazeImages, AreTheReferences) {
         for (const int steps : {0, 64})
             for (const ReferenceMode mode : {ReferenceMode::surface, ReferenceMode::scene}) {
                 UploadedScene& scene = uploaded(name);
-                Settings settings = hazeImage(3, steps);
-                settings.size = {64, 36};
-                settings.ambient = {0.01f, 0.02f, 0.03f};
+                Settings settings = with(hazeImage(3, steps), "size 64x36 ambient 0.01,0.02,0.03");
                 if (name == std::string_view("builtin:ortho")) settings.haze_density = 3000;
                 const Frame frame = drawnBy(Path::deferred, scene.renderer, settings, hazeShown);
                 settings.reference_mode = mode;

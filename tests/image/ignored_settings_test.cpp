@@ -8,10 +8,7 @@ namespace diptych::tests {
 namespace {
 
 Image litOf(Renderer& renderer, const Settings& settings) {
-    RenderOptions options;
-    options.channels = {Channel::lit};
-    options.runs = 0;
-    return renderer.draw(settings, options).channels.at(Channel::lit);
+    return renderer.draw(settings, untimed({Channel::lit})).channels.at(Channel::lit);
 }
 
 TEST(IgnoredSettings, ChangeNoBit) {

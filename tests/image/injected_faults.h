@@ -86,7 +86,8 @@ private:
 // Whether two images differ by more than rounding: by over 1e-5 of the first one's mean.
 bool differsVisibly(const Image& a, const Image& b);
 
-// Views for injecting faults of a kind: at least 20, created on first use and cached.
-std::vector<InjectedView*> injectedViews(ViewKind kind);
+// View `index` for injecting faults of a kind, created on first use and cached; null after the last. There
+// are at least 20, seed by seed.
+InjectedView* injectedView(ViewKind kind, std::size_t index);
 
 }  // namespace diptych::tests

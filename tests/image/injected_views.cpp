@@ -76,11 +76,8 @@ Scene seeded(const std::string& name, std::uint32_t seed, ViewKind kind) {
     const bool has_sun = std::ranges::any_of(
         scene.lights, [](const Light& light) { return light.kind == LightKind::directional; });
     if (!has_sun) {
-        Light sun;
-        sun.kind = LightKind::directional;
-        sun.intensity = 1;
-        sun.direction = glm::normalize(glm::dvec3(draws.between(0.6, 1.2), -0.7, draws.between(-0.5, -0.1)));
-        scene.lights.push_back(sun);
+        scene.lights.push_back(sunAlong(
+            glm::normalize(glm::dvec3(draws.between(0.6, 1.2), -0.7, draws.between(-0.5, -0.1))), 1));
     }
     // Faults of a single light affect the first one.
     std::rotate(scene.lights.begin(),
@@ -92,9 +89,7 @@ Scene seeded(const std::string& name, std::uint32_t seed, ViewKind kind) {
 
 Settings settingsOf(const std::string& name, const std::string& camera, ViewKind kind, std::uint32_t seed) {
     Draws draws(seed + 1000);
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.path = Path::forward_plus;
-    settings.assign = Assignment::every;
+    Settings settings = with(smallImage(GBufferEncoding::full), "path forward_plus assign every");
     settings.size = {imageWidth, imageHeight};
     settings.camera = camera;
     const auto ambient = static_cast<float>(draws.between(0.05, 0.3));
@@ -240,31 +235,34 @@ bool InjectedView::feels(const InjectedFault& fault) {
                differsVisibly(right.channels.at(Channel::lit), with(fault).channels.at(Channel::lit));
 }
 
-std::vector<InjectedView*> injectedViews(ViewKind kind) {
-    struct Place {
-        const char* scene;
-        std::vector<const char*> cameras;
-    };
+InjectedView* injectedView(ViewKind kind, std::size_t index) {
+    using Place = std::pair<const char*, const char*>;  // scene, camera
     static const std::vector<Place> opaque{
-        {"builtin:points", {"front", "eye=2,1.6,4.6 target=-0.3,0.6,0 fov=44"}},
-        {"builtin:suns", {"front", "eye=-2.5,2.6,4.5 target=0,0.4,0 fov=40"}},
-        {"builtin:spots", {"front", "eye=1,2.8,5 target=0.2,0.2,0 fov=46"}},
-        {"builtin:far_away",
-         {"there", "eye=1000001.2,200001.1,-999996.8 target=1000000,200000.3,-1000000 fov=44"}}};
-    static const std::vector<Place> blended{
-        {"builtin:glass", {"front", "inside", "eye=-1.4,1.3,4.5 target=0,0.9,0 fov=46"}},
-        {"builtin:crossed", {"front", "eye=1.2,0.9,3.2 target=0,0.6,0 fov=46"}}};
+        {"builtin:points", "front"},
+        {"builtin:suns", "front"},
+        {"builtin:spots", "front"},
+        {"builtin:far_away", "there"},
+        {"builtin:points", "eye=2,1.6,4.6 target=-0.3,0.6,0 fov=44"},
+        {"builtin:suns", "eye=-2.5,2.6,4.5 target=0,0.4,0 fov=40"},
+        {"builtin:spots", "eye=1,2.8,5 target=0.2,0.2,0 fov=46"},
+        {"builtin:far_away", "eye=1000001.2,200001.1,-999996.8 target=1000000,200000.3,-1000000 fov=44"}};
+    static const std::vector<Place> blended{{"builtin:glass", "front"},
+                                            {"builtin:crossed", "front"},
+                                            {"builtin:glass", "inside"},
+                                            {"builtin:crossed", "eye=1.2,0.9,3.2 target=0,0.6,0 fov=46"},
+                                            {"builtin:glass", "eye=-1.4,1.3,4.5 target=0,0.9,0 fov=46"}};
     pipelines();  // before the views: must outlive them
     static std::map<ViewKind, std::vector<std::unique_ptr<InjectedView>>> made;
     std::vector<std::unique_ptr<InjectedView>>& views = made[kind];
-    if (views.empty())
-        for (std::uint32_t seed = 1; seed <= (kind == ViewKind::opaque ? 4u : 5u); ++seed)
-            for (const Place& place : kind == ViewKind::opaque ? opaque : blended)
-                for (const char* camera : place.cameras)
-                    views.push_back(std::make_unique<InjectedView>(place.scene, camera, seed, kind));
-    std::vector<InjectedView*> all;
-    for (const auto& view : views) all.push_back(view.get());
-    return all;
+    const std::vector<Place>& places = kind == ViewKind::opaque ? opaque : blended;
+    while (views.size() <= index) {
+        const std::size_t seed = 1 + views.size() / places.size();
+        if (seed > (kind == ViewKind::opaque ? 4 : 5)) return nullptr;
+        const auto& [scene, camera] = places[views.size() % places.size()];
+        views.push_back(
+            std::make_unique<InjectedView>(scene, camera, static_cast<std::uint32_t>(seed), kind));
+    }
+    return views[index].get();
 }
 
 }  // namespace diptych::tests

@@ -66,9 +66,8 @@ void expectTheSame(const std::string& name, const std::function<void(Scene&)>& c
     SCOPED_TRACE(name);
     const Scene together = flags(false, 7, changeScene), apart = flags(true, 7, changeScene);
     Renderer ofTogether(device(), together, pipelines()), ofApart(device(), apart, pipelines());
-    RenderOptions options;
-    options.channels = {Channel::lit, Channel::normals, Channel::depth, Channel::material_id};
-    options.runs = 0;
+    const RenderOptions options =
+        untimed({Channel::lit, Channel::normals, Channel::depth, Channel::material_id});
     for (const Path path : drawn_paths) {
         Settings settings = instanceSettings(path);
         if (change) change(settings);

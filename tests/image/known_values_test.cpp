@@ -86,11 +86,7 @@ TEST(KnownValues, SpecularGlossiness) {
     m.base_color = {0.8f, 0.4f, 0.2f, 1};
     m.specular_color = {0.25f, 0.5f, 0};
     m.metallic = m.ior = 0;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = std::numbers::pi_v<float>;
-    sun.direction = {0, 0, -1};
-    scene.lights = {sun};
+    scene.lights = {sunAlong({0, 0, -1}, std::numbers::pi_v<float>)};
     for (const BaseLayer base : {BaseLayer::max, BaseLayer::component}) {
         Settings settings = smallImage(GBufferEncoding::full);
         settings.size = {1, 1};
@@ -144,10 +140,7 @@ TEST(KnownValues, GgxPeak) {
     Scene scene = square();
     Material& m = scene.materials[0];
     m.roughness = 0.5f;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {0, 0, -1};
-    scene.lights = {sun};
+    scene.lights = {sunAlong({0, 0, -1})};
     const float expected = 1 / (std::numbers::pi_v<float> * 0.0625f) / 4;
     for (const Frame& frame : draw(scene, 1))
         expectColor(colorAt(frame, Channel::lit, 0, 0), glm::vec3(expected), 5e-6f, frame.name);
@@ -156,10 +149,7 @@ TEST(KnownValues, GgxPeak) {
 // Occlusion applies only to ambient light; direct light is unaffected with or without ambient light.
 TEST(KnownValues, OcclusionLeavesDirectLightAlone) {
     Scene scene = square();
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {0, 0, -1};
-    scene.lights = {sun};
+    scene.lights = {sunAlong({0, 0, -1})};
     const glm::vec3 open = colorAt(draw(scene)[0], Channel::lit, 3, 0);
     scene.materials[0].occlusion_texture.texture = 0;
     Renderer renderer(device(), scene, pipelines());
@@ -245,10 +235,7 @@ TEST(Extremes, ALightThatShinesAtTheViewerGivesNothing) {
     scene.cameras[0].orthographic = true;
     scene.cameras[0].ymag = 0.9;
     scene.cameras[0].far = 10;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {0, 0, 1};
-    scene.lights = {sun};
+    scene.lights = {sunAlong({0, 0, 1})};
     const auto frames = draw(scene, 8);
     expectSound(frames);
     for (const float value : frames[1].channels.at(Channel::lit).data) EXPECT_EQ(value, 0.0f);

@@ -27,11 +27,7 @@ Scene tiltedSquare(const Material& material, double degrees, const glm::dvec3& l
     scene.materials[0] = material;
     scene.nodes[0].parent_from_node =
         glm::rotate(glm::dmat4(1.0), glm::radians(degrees), glm::dvec3(0, 1, 0));
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = static_cast<float>(sunlight);
-    sun.direction = -l;
-    scene.lights = {sun};
+    scene.lights = {sunAlong(-l, static_cast<float>(sunlight))};
     return scene;
 }
 glm::dvec3 tiltedNormal(double degrees) {

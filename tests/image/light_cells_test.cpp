@@ -65,10 +65,7 @@ DrawnLights drawnWith(Renderer& renderer, Path path, Assignment assign, LightKer
     settings.assign = assign;
     settings.light_kernel = kernel;
     settings.gbuffer = GBufferEncoding::full;
-    RenderOptions options;
-    options.channels = {Channel::lit, Channel::light_count};
-    options.runs = 0;
-    Frame frame = renderer.draw(settings, options);
+    Frame frame = renderer.draw(settings, untimed({Channel::lit, Channel::light_count}));
     EXPECT_EQ(frame.counters.overflowed_lists, 0u);
     return {std::move(frame.channels.at(Channel::lit)), std::move(frame.channels.at(Channel::light_count))};
 }

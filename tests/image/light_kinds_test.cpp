@@ -35,10 +35,7 @@ protected:
     // `seen`: of the light's irradiance.
     static void expectIn(Renderer& renderer, const Scene& scene, const Settings& settings, double seen = 1) {
         SCOPED_TRACE(std::string(nameOf(settings.path)) + ", " + std::string(nameOf(settings.assign)));
-        RenderOptions options;
-        options.channels = {Channel::lit};
-        options.runs = 0;
-        const Frame frame = renderer.draw(settings, options);
+        const Frame frame = renderer.draw(settings, untimed({Channel::lit}));
         // Area lights err by 2e-5 of a sky of their radiance (AreaShapes).
         const float tolerance = isArea(GetParam()) ? 2e-4f : 5 * float32;
         for (int y = 0; y < 4; ++y)
@@ -84,10 +81,7 @@ TEST_P(LightOf, HasItsShadow) {
     scene.meshes[0].primitives.push_back(rectangle({-1.5, -1.5, 1.5}, {3, 0, 0}, {0, 3, 0}));
     Renderer renderer(device(), scene, pipelines());
     for (const Path path : {Path::reference, Path::deferred, Path::forward_plus}) {
-        Settings settings = fourPixels(path);
-        settings.shadows = Shadows::pcf;
-        settings.shadow_lights = 1;
-        settings.shadow_size = 512;
+        Settings settings = with(fourPixels(path), "shadows pcf shadow-lights 1 shadow-size 512");
         expectIn(renderer, scene, settings, isArea(GetParam()) ? 1 : 0);
     }
 }

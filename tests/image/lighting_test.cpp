@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -28,9 +27,7 @@ Settings lightingSettings(Size size = {160, 90}) {
 
 // lit of the timed frame, not of a capture.
 Image timedLit(Renderer& renderer, const Settings& settings) {
-    RenderOptions options;
-    options.channels = {Channel::lit};
-    options.runs = 0;
+    RenderOptions options = untimed({Channel::lit});
     options.recheck = false;
     return renderer.draw(settings, options).channels.at(Channel::lit);
 }
@@ -54,11 +51,10 @@ Image expectSameLighting(Renderer& renderer, Settings settings, const std::strin
     return fragments;
 }
 
-using Change = std::function<void(Settings&)>;
-Image expectSameLighting(const std::string& scene, const std::string& name, const Change& change = {}) {
-    Settings settings = lightingSettings();
-    if (change) change(settings);
-    return expectSameLighting(uploaded(scene).renderer, settings, scene + ", " + name);
+// With options (with()) beyond lightingSettings().
+Image expectSameLighting(const std::string& scene, const std::string& options) {
+    return expectSameLighting(uploaded(scene).renderer, with(lightingSettings(), options),
+                              scene + ", " + options);
 }
 
 std::size_t distinctTexels(const Image& image) {
@@ -81,7 +77,7 @@ TEST_P(LightingOf, ChangesNoBit) {
     settings.lighting = Lighting::compute;
     const Frame frame = drawnBy(Path::deferred, uploaded(GetParam()).renderer, settings, {Channel::lit});
     EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
-    expectSameLighting(GetParam(), "four samples", [](Settings& s) { s.msaa = 4; });
+    expectSameLighting(GetParam(), "msaa 4");
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, LightingOf,
@@ -89,37 +85,27 @@ INSTANTIATE_TEST_SUITE_P(Builtin, LightingOf,
                                          "builtin:ortho", "builtin:cutout", "builtin:glass", "builtin:areas",
                                          "builtin:dielectrics", "builtin:occlusion", "builtin:far_away",
                                          "builtin:deep", "builtin:normals"),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+                         sceneName);
 
 // For every light assignment and G-buffer encoding.
 TEST(LightingImages, AreTheSameForEveryAssignmentAndEncoding) {
-    for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered})
+    for (const char* assign : {"every", "tiled", "clustered"})
         for (const auto& [encoding, encoded] : enumNames<GBufferEncoding>())
             for (const char* lights : {"point:40,spot:10", "point:3"})
                 expectSameLighting("builtin:gallery",
-                                   fmt::format("{} {} {}", nameOf(assign), encoded, lights),
-                                   [&, as = encoding](Settings& s) {
-                                       s.assign = assign;
-                                       s.gbuffer = as;
-                                       s.lights = lights;
-                                   });
-    for (const LightKernel kernel : {LightKernel::scatter, LightKernel::gather})
-        expectSameLighting("builtin:points", std::string(nameOf(kernel)),
-                           [&](Settings& s) { s.light_kernel = kernel; });
+                                   fmt::format("assign {} gbuffer {} lights {}", assign, encoded, lights));
+    for (const char* kernel : {"scatter", "gather"})
+        expectSameLighting("builtin:points", fmt::format("light-kernel {}", kernel));
 }
 
 // Attachment writes and image stores may round to fewer bits differently.
 TEST(LightingImages, AreTheSameInEveryFormat) {
     for (const auto& [lit_format, of_lit] : enumNames<LitFormat>())
         for (const auto& [depth_format, of_depth] : enumNames<DepthFormat>())
-            expectSameLighting("builtin:gallery", fmt::format("{} {}", of_lit, of_depth),
-                               [&, to = lit_format, depth = depth_format](Settings& s) {
-                                   s.lit_format = to;
-                                   s.depth_format = depth;
-                               });
+            expectSameLighting("builtin:gallery",
+                               fmt::format("lit-format {} depth-format {}", of_lit, of_depth));
     if (device().support().has(DeviceFeature::shaderFloat16))
-        expectSameLighting("builtin:gallery", "light in 16 bits",
-                           [](Settings& s) { s.shading_precision = ShadingPrecision::fp16; });
+        expectSameLighting("builtin:gallery", "shading-precision fp16");
     // Beyond the largest half float.
     Scene bright = loadScene("builtin:points");
     for (Light& light : bright.lights) light.intensity *= 1e6f;
@@ -134,23 +120,13 @@ TEST(LightingImages, AreTheSameInEveryFormat) {
 
 TEST(LightingImages, AreTheSameUnderEveryShadow) {
     for (const auto& [shadows, name] : enumNames<Shadows>())
-        expectSameLighting("builtin:gallery", std::string(name), [&, kind = shadows](Settings& s) {
-            s.shadows = kind;
-            s.shadow_size = 256;
-        });
-    for (const float exponent : {5.0f, 44.36f})
-        expectSameLighting("builtin:gallery", fmt::format("evsm {}", exponent), [&](Settings& s) {
-            s.shadows = Shadows::evsm;
-            s.shadow_size = 256;
-            s.evsm_precision = EvsmPrecision::fp32;
-            s.evsm_exponent = exponent;
-        });
-    expectSameLighting("builtin:gallery", "lamps cast", [](Settings& s) {
-        s.shadows = Shadows::pcf;
-        s.shadow_size = 256;
-        s.shadow_lights = 4;
-        s.lights = "point:8,spot:4";
-    });
+        expectSameLighting("builtin:gallery", fmt::format("shadows {} shadow-size 256", name));
+    for (const char* exponent : {"5", "44.36"})
+        expectSameLighting(
+            "builtin:gallery",
+            fmt::format("shadows evsm shadow-size 256 evsm-precision fp32 evsm-exponent {}", exponent));
+    expectSameLighting("builtin:gallery",
+                       "shadows pcf shadow-size 256 shadow-lights 4 lights point:8,spot:4");
 }
 
 TEST(LightingImages, AreTheSameUnderLightFromEverywhere) {
@@ -169,39 +145,22 @@ TEST(LightingImages, AreTheSameUnderLightFromEverywhere) {
             settings.msaa = samples;
             expectSameLighting(renderer, settings, fmt::format("{} {}", nameOf(ibl), samples));
         }
-    for (const auto& [multiscatter, name] : enumNames<Multiscatter>()) {
-        if (multiscatter == Multiscatter::walk) continue;  // only the reference has it
-        expectSameLighting("builtin:gallery", std::string(name), [&, kind = multiscatter](Settings& s) {
-            s.ambient = {0.3f, 0.4f, 0.5f};
-            s.multiscatter = kind;
-        });
-    }
-    expectSameLighting("builtin:gallery", "a fit", [](Settings& s) {
-        s.ambient = {0.3f, 0.4f, 0.5f};
-        s.specular_albedo = SpecularAlbedo::fit;
-    });
-    expectSameLighting("builtin:areas", "one point of each lamp",
-                       [](Settings& s) { s.area_lights = AreaLights::representative; });
-    expectSameLighting("builtin:points", "other falloffs", [](Settings& s) {
-        s.lights = "point:20,spot:20";
-        s.spot_cone = SpotFalloff::smoothstep;
-        s.range_window = RangeWindow::squared;
-    });
-    for (const int steps : {0, 8})
-        expectSameLighting("builtin:gallery", fmt::format("haze {}", steps), [&](Settings& s) {
-            s.haze = true;
-            s.haze_density = 1000;
-            s.haze_march_steps = steps;
-        });
+    const std::string ambient = "ambient 0.3,0.4,0.5 ";
+    for (const auto& [multiscatter, name] : enumNames<Multiscatter>())
+        if (multiscatter != Multiscatter::walk)  // only the reference has it
+            expectSameLighting("builtin:gallery", ambient + "multiscatter " + std::string(name));
+    expectSameLighting("builtin:gallery", ambient + "specular-albedo fit");
+    expectSameLighting("builtin:areas", "area-lights representative");
+    expectSameLighting("builtin:points", "lights point:20,spot:20 spot-cone smoothstep range-window squared");
+    for (const char* steps : {"0", "8"})
+        expectSameLighting("builtin:gallery",
+                           fmt::format("haze on haze-density 1000 haze-march-steps {}", steps));
 }
 
 // Background pixels stay 0 under ambient light, with either lighting.
 TEST(LightingImages, LeaveTheBackground) {
-    for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::full}) {
-        const Image image = expectSameLighting("builtin:spheres", "ambient light", [&](Settings& s) {
-            s.ambient = {0.3f, 0.4f, 0.5f};
-            s.gbuffer = encoding;
-        });
+    for (const std::string gbuffer : {"standard", "full"}) {
+        const Image image = expectSameLighting("builtin:spheres", "ambient 0.3,0.4,0.5 gbuffer " + gbuffer);
         EXPECT_GT(std::ranges::count(image.data, 0.0f), 3000);
     }
 }
@@ -232,59 +191,33 @@ TEST(LightingImages, AreTheSameOfEverySize) {
                             Size{2 * side + 1, 1}, Size{1, 3 * side - 1}, Size{257, 131}})
         for (const int samples : {1, 4})
             for (const Assignment assign : {Assignment::clustered, Assignment::tiled})
-                expectSameLighting(
-                    "builtin:gallery",
-                    fmt::format("{}x{}, {} samples, {}", size.width, size.height, samples, nameOf(assign)),
-                    [&](Settings& s) {
-                        s.size = size;
-                        s.msaa = samples;
-                        s.assign = assign;
-                        s.lights = "point:30";
-                    });
+                expectSameLighting("builtin:gallery",
+                                   fmt::format("size {}x{} msaa {} assign {} lights point:30", size.width,
+                                               size.height, samples, nameOf(assign)));
 }
 
 TEST(LightingImages, AreTheSameOfSeveralSamples) {
     for (const auto& [edges, name] : enumNames<MsaaEdges>())
-        for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::full})
-            expectSameLighting("builtin:gallery", fmt::format("{} {}", name, nameOf(encoding)),
-                               [&, which = edges](Settings& s) {
-                                   s.msaa = 4;
-                                   s.msaa_edges = which;
-                                   s.gbuffer = encoding;
-                               });
-    for (const Shadows shadows : {Shadows::pcf, Shadows::evsm})
-        expectSameLighting("builtin:cutout", std::string(nameOf(shadows)), [&](Settings& s) {
-            s.msaa = 4;
-            s.shadows = shadows;
-            s.alpha_to_coverage = true;
-        });
-    expectSameLighting("builtin:cutout", "tone-mapped, samples shaded", [](Settings& s) {
-        s.msaa = 4;
-        s.resolve = Resolve::tonemapped;
-        s.msaa_shading = MsaaShading::sample;
-    });
+        for (const char* gbuffer : {"standard", "full"})
+            expectSameLighting("builtin:gallery",
+                               fmt::format("msaa 4 msaa-edges {} gbuffer {}", name, gbuffer));
+    for (const char* shadows : {"pcf", "evsm"})
+        expectSameLighting("builtin:cutout", fmt::format("msaa 4 alpha-to-coverage on shadows {}", shadows));
+    expectSameLighting("builtin:cutout", "msaa 4 resolve tonemapped msaa-shading sample");
 }
 
 // Sums of earlier batches are stored, not blended; the sun and shadow-casting lights are included.
 TEST(LightingImages, AreTheSameInBatches) {
-    for (const Shadows shadows : {Shadows::off, Shadows::pcf})
-        for (const Size size : {Size{24, 14}, Size{33, 17}})
-            expectSameLighting("builtin:gallery", fmt::format("{}", nameOf(shadows)), [&](Settings& s) {
-                s.size = size;
-                s.assign = Assignment::every;
-                s.shadows = shadows;
-                s.shadow_size = 256;
-                s.shadow_lights = shadows == Shadows::off ? 0 : 2;
-                s.lights = fmt::format("point:{}", 2 * device().profile().light_iterations + 7);
-            });
+    for (const char* shadows : {"shadows off shadow-lights 0", "shadows pcf shadow-lights 2"})
+        for (const char* size : {"24x14", "33x17"})
+            expectSameLighting("builtin:gallery",
+                               fmt::format("{} size {} assign every shadow-size 256 lights point:{}", shadows,
+                                           size, 2 * device().profile().light_iterations + 7));
 }
 
 TEST(LightingImages, AreTheSameUnderWhatIsBlended) {
     for (const auto& [transparency, name] : enumNames<Transparency>())
-        expectSameLighting("builtin:glass", std::string(name), [&, order = transparency](Settings& s) {
-            s.transparency = order;
-            s.lit_format = LitFormat::fp16;
-        });
+        expectSameLighting("builtin:glass", fmt::format("transparency {} lit-format fp16", name));
 }
 
 // On devices that must not be busy for a whole dispatch, rows of workgroups are split into bands.
@@ -292,9 +225,7 @@ TEST(LightingImages, AreTheSameInBands) {
     Device on({.choice = "", .validate = true, .choices = ProfileChoices::gpu});
     const Scene scene = loadScene("builtin:points");
     Renderer renderer(on, scene, makePipelineSet(on));
-    Settings settings = lightingSettings({200, 131});
-    settings.assign = Assignment::every;
-    settings.lights = "point:30000";
+    Settings settings = with(lightingSettings({200, 131}), "assign every lights point:30000");
     expectSameLighting(renderer, settings, "bands");
     settings.msaa = 4;
     settings.lights = "point:300";

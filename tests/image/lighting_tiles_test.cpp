@@ -148,9 +148,7 @@ TEST(LightingTiles, OneSampleOfAPixelIsEnough) {
 
 // Reads the timed frame without values that some fragments flush to 0 (lighting_test.cpp).
 Image tiledLit(Renderer& renderer, const Settings& settings) {
-    RenderOptions options;
-    options.channels = {Channel::lit};
-    options.runs = 0;
+    RenderOptions options = untimed({Channel::lit});
     options.recheck = false;
     Image image = renderer.draw(settings, options).channels.at(Channel::lit);
     for (float& value : image.data)

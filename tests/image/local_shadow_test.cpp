@@ -25,10 +25,7 @@ Settings locally(const Settings& settings, int lights, int size = 1024, int kern
 
 Frame drawnOf(const Scene& scene, const Settings& settings,
               const std::vector<Channel>& channels = {Channel::local_visibility, Channel::material_id}) {
-    RenderOptions options;
-    options.channels = channels;
-    options.runs = 0;
-    return drawAll(scene, {settings}, options).front();
+    return drawAll(scene, {settings}, untimed(channels)).front();
 }
 
 // Minimum and maximum local visibility of the pixels of one material.
@@ -74,15 +71,9 @@ TEST_P(LocalShadowPaths, SeeTheSame) {
             const Settings settings = locally(smallImage(encoding), GetParam().lights, 512, kernel);
             const std::vector<Frame> frames =
                 bothPaths(renderer, settings, {Channel::local_visibility, Channel::lit});
-            EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::local_visibility),
-                                      frames[1].channels.at(Channel::local_visibility)),
-                      0u)
-                << kernel;
+            EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::local_visibility), 0u) << kernel;
             if (encoding == GBufferEncoding::full) {
-                EXPECT_EQ(
-                    differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)),
-                    0u)
-                    << kernel;
+                EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::lit), 0u) << kernel;
             } else {
                 EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit),
                                           frames[1].through_gbuffer.at(Channel::lit)),
@@ -101,9 +92,7 @@ TEST_P(LocalShadowPaths, AreTheReferencesAwayFromEdges) {
     settings.size = {320, 180};
     Settings truth = settings;
     truth.path = Path::reference;
-    RenderOptions options;
-    options.channels = {Channel::local_visibility, Channel::material_id};
-    options.runs = 0;
+    const RenderOptions options = untimed({Channel::local_visibility, Channel::material_id});
     const Frame path = renderer.draw(settings, options), reference = renderer.draw(truth, options);
     ASSERT_FALSE(reference.local_shadow_edge.empty());
     ASSERT_GT(path.local_shadow_filter_radius, 0);
@@ -239,7 +228,7 @@ TEST(LocalShadowCasters, AreThoseThatAsk) {
     Settings off = smallImage(GBufferEncoding::standard), none = locally(off, 0), one = locally(off, 1);
     const std::vector<Channel> channels{Channel::local_visibility, Channel::material_id, Channel::lit};
     const Frame without = drawnOf(scene, off, channels), asked = drawnOf(scene, none, channels);
-    EXPECT_EQ(differingPixels(without.channels.at(Channel::lit), asked.channels.at(Channel::lit)), 0u);
+    EXPECT_EQ(differingPixels(without, asked, Channel::lit), 0u);
     EXPECT_EQ(locallySeen(asked).min, 1);
     EXPECT_EQ(asked.local_shadow_filter_radius, 0);
     EXPECT_TRUE(says(asked, "2 point or spot lights cast no shadow")) << "and it is said";
@@ -249,7 +238,7 @@ TEST(LocalShadowCasters, AreThoseThatAsk) {
     EXPECT_TRUE(says(brightest, "shadows of 1 local light: "));
     scene.lights[0].shadow = true;
     const Frame itself = drawnOf(scene, none, channels);
-    EXPECT_EQ(differingPixels(itself.channels.at(Channel::lit), brightest.channels.at(Channel::lit)), 0u);
+    EXPECT_EQ(differingPixels(itself, brightest, Channel::lit), 0u);
     EXPECT_EQ(locallySeen(drawnOf(scene, off, channels)).min, 1) << "--shadows off";
 }
 
@@ -283,9 +272,8 @@ TEST(LocalShadowCasters, BeyondTheAtlasAreCounted) {
 // With every assignment the same lights cast, and every sum has the same order.
 TEST(LocalShadowLists, AreNoDifference) {
     const Scene scene = loadScene("builtin:points");
-    Settings settings = locally(smallImage(GBufferEncoding::full), 3, 512);
-    settings.lights = "spot:40,point:40,area:3";
-    settings.assign = Assignment::every;
+    Settings settings = with(locally(smallImage(GBufferEncoding::full), 3, 512),
+                             "lights spot:40,point:40,area:3 assign every");
     const std::vector<Channel> channels{Channel::local_visibility, Channel::lit};
     const Frame every = drawnOf(scene, settings, channels);
     for (const Assignment assign : {Assignment::tiled, Assignment::clustered, Assignment::per_object})
@@ -296,7 +284,7 @@ TEST(LocalShadowLists, AreNoDifference) {
             if (assign == Assignment::per_object) other.pixel_lights = 1000;
             const Frame frame = drawnOf(scene, other, channels);
             for (const Channel mode : channels)
-                EXPECT_EQ(differingPixels(every.channels.at(mode), frame.channels.at(mode)), 0u)
+                EXPECT_EQ(differingPixels(every, frame, mode), 0u)
                     << nameOf(assign) << " " << nameOf(kernel) << " " << debugMode(mode).name;
         }
 }
@@ -305,9 +293,8 @@ TEST(LocalShadowLists, AreNoDifference) {
 TEST(LocalShadowLists, OfObjectsKeepThoseThatCast) {
     const Scene scene =
         ground({castingPoint({2, 2, 0}), castingPoint({0, 3, 1}), castingPoint({0, 3, 2})}, {board(1)});
-    Settings settings = locally(smallImage(GBufferEncoding::standard), 1);
-    settings.assign = Assignment::per_object;
-    settings.pixel_lights = 0;
+    Settings settings =
+        with(locally(smallImage(GBufferEncoding::standard), 1), "assign per_object pixel-lights 0");
     EXPECT_EQ(locallySeen(drawnOf(scene, settings)).min, 0);
 }
 
@@ -315,13 +302,9 @@ TEST(LocalShadowLists, OfObjectsKeepThoseThatCast) {
 TEST(LocalShadowLists, InSeveralBatchesAreNoDifference) {
     Scene scene = ground({castingPoint({2, 2, 0}), castingSpot({1, 2, 1}, {-1, 0, 0}, 40)}, {board(1)});
     for (Light& light : scene.lights) light.shadow = true;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = glm::normalize(glm::dvec3(-1, -1, 0.3));
-    scene.lights.push_back(sun);
-    Settings settings = locally(smallImage(GBufferEncoding::full), 0, 256);
-    settings.size = {32, 18};
-    settings.lights = "point:70000";
+    scene.lights.push_back(sunAlong(glm::normalize(glm::dvec3(-1, -1, 0.3))));
+    Settings settings =
+        with(locally(smallImage(GBufferEncoding::full), 0, 256), "size 32x18 lights point:70000");
     const std::vector<Channel> channels{Channel::local_visibility, Channel::shadow_visibility, Channel::lit};
     for (const Path path : drawn_paths) {
         settings.path = path;
@@ -330,7 +313,7 @@ TEST(LocalShadowLists, InSeveralBatchesAreNoDifference) {
         settings.assign = Assignment::clustered;
         const Frame clustered = drawnOf(scene, settings, channels);
         for (const Channel mode : channels)
-            EXPECT_EQ(differingPixels(every.channels.at(mode), clustered.channels.at(mode)), 0u)
+            EXPECT_EQ(differingPixels(every, clustered, mode), 0u)
                 << nameOf(path) << " " << debugMode(mode).name;
         for (const Channel mode : {Channel::local_visibility, Channel::shadow_visibility})
             EXPECT_LT(*std::ranges::min_element(every.channels.at(mode).data), 0.1f);

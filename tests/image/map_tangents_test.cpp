@@ -20,11 +20,8 @@ std::vector<Frame> drawMaps(Scene scene, double degrees) {
     std::vector<Frame> frames = bothPaths(scene, settings);
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
-    RenderOptions options;
-    options.channels = allChannels();
-    options.runs = 0;
     Renderer renderer(device(), scene, pipelines());
-    frames.push_back(renderer.draw(settings, options));
+    frames.push_back(renderer.draw(settings, untimed(allChannels())));
     return frames;
 }
 

@@ -37,9 +37,7 @@ CellDecode deviceDecode() {
 }
 
 Settings materialImage(const CellCamera& camera) {
-    Settings settings = unshadowed();
-    settings.gbuffer = GBufferEncoding::full;
-    settings.assign = Assignment::every;
+    Settings settings = with(unshadowed(), "gbuffer full assign every");
     settings.camera = camera.name;
     settings.size = {camera.size.x, camera.size.y};
     settings.ambient = {camera.ambient, 0.8f * camera.ambient, 1.5f * camera.ambient};
@@ -48,13 +46,9 @@ Settings materialImage(const CellCamera& camera) {
 
 Frame materialReference(const Scene& scene, const CellCamera& camera) {
     SceneViews views(scene);
-    Settings settings = materialImage(camera);
-    settings.path = Path::reference;
-    settings.reference_mode = ReferenceMode::scene;
-    RenderOptions options;
-    options.channels = allChannels();
-    options.runs = 0;
-    return drawReferenceFrame(scene, views.at(viewRequest(settings)), settings, nullptr, options);
+    Settings settings = with(materialImage(camera), "path reference reference-mode scene");
+    return drawReferenceFrame(scene, views.at(viewRequest(settings)), settings, nullptr,
+                              untimed(allChannels()));
 }
 
 // All cells need the most pipelines: only material channels. A few cells: every channel.
@@ -75,14 +69,11 @@ std::vector<Frame> materialFrames(const CellCamera& camera) {
     static auto& renderers = *new std::map<const Scene*, Renderer>;
     const Scene& scene = sceneOf(camera);
     Renderer& renderer = renderers.try_emplace(&scene, device(), scene, pipelines()).first->second;
-    RenderOptions options;
-    options.channels = channelsAt(camera);
-    options.runs = 0;
     std::vector<Frame> frames;
     for (const Path path : {Path::deferred, Path::forward_plus}) {
         Settings settings = materialImage(camera);
         settings.path = path;
-        frames.push_back(renderer.draw(settings, options));
+        frames.push_back(renderer.draw(settings, untimed(channelsAt(camera))));
     }
     return frames;
 }

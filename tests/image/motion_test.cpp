@@ -30,11 +30,8 @@ Settings movingImage(double time, const std::string& animation = {}) {
 }
 
 Frame drawnOnce(Renderer& renderer, Settings settings, Path path, const std::vector<Channel>& channels) {
-    RenderOptions options;
-    options.channels = channels;
-    options.runs = 0;
     settings.path = path;
-    return renderer.draw(settings, options);
+    return renderer.draw(settings, untimed(channels));
 }
 
 void expectSame(const Frame& a, const Frame& b, const std::string& what) {
@@ -56,35 +53,25 @@ const std::vector<std::string> movingScenes{"builtin:motion", "builtin:tangents"
                                             "morph_stress_test/morph_stress_test.glb",
                                             "features/interpolation_test/InterpolationTest.gltf"};
 
-class MovingParity : public testing::TestWithParam<std::string> {
-protected:
-    // Null if the file does not exist; the test is then skipped.
-    UploadedScene* scene() {
-        if (GetParam().starts_with("builtin:")) return &uploaded(GetParam());
-        const std::filesystem::path file = assets() / GetParam();
-        return std::filesystem::exists(file) ? &uploaded(file.string()) : nullptr;
-    }
-};
+class MovingParity : public SceneTest {};
 
 // At the start, middle and end of each animation: all assignments in both paths, and both places of
 // skinning.
 TEST_P(MovingParity, PathsAndAssignmentsDrawTheSameBits) {
-    UploadedScene* const moving = scene();
-    if (moving == nullptr)
-        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
+    UploadedScene& moving = uploaded(name());
     const std::vector<Channel> channels{Channel::lit, Channel::material_id, Channel::depth,
                                         Channel::shadow_visibility};
     std::size_t drawn = 0;
-    for (std::size_t a = 0; a < moving->scene.animations.size(); ++a)
+    for (std::size_t a = 0; a < moving.scene.animations.size(); ++a)
         for (const double part : {0.0, 0.5, 1.0}) {
-            Settings settings = movingImage(part * lengthOf(moving->scene.animations[a]), std::to_string(a));
+            Settings settings = movingImage(part * lengthOf(moving.scene.animations[a]), std::to_string(a));
             // Lights beyond the per-pixel limit are evaluated per vertex, which `every` does not do.
             settings.pixel_lights = 64;
             settings.assign = Assignment::every;
-            const Frame every = drawnOnce(moving->renderer, settings, Path::forward_plus, channels);
+            const Frame every = drawnOnce(moving.renderer, settings, Path::forward_plus, channels);
             drawn += coveredPixels(every);
             const auto same = [&](Path path) {
-                expectSame(drawnOnce(moving->renderer, settings, path, channels), every,
+                expectSame(drawnOnce(moving.renderer, settings, path, channels), every,
                            fmt::format("animation {} at {} s, {}, {}, {}", a, settings.time,
                                        settings.valueOf("assign"), settings.valueOf("skinning"),
                                        path == Path::deferred ? "deferred" : "forward+"));
@@ -106,34 +93,30 @@ TEST_P(MovingParity, PathsAndAssignmentsDrawTheSameBits) {
 }
 
 TEST_P(MovingParity, KernelsAndVertexShadersPoseTheSameBits) {
-    UploadedScene* const moving = scene();
-    if (moving == nullptr)
-        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
+    UploadedScene& moving = uploaded(name());
     Settings settings = movingImage(0.7);
     // Each vertex attribute affects one of them.
     const std::vector<Channel> channels{
         Channel::lit,   Channel::albedo,           Channel::normals, Channel::material_id, Channel::texcoords,
         Channel::depth, Channel::geometric_normal, Channel::tangent, Channel::handedness};
-    const Frame forward = drawnOnce(moving->renderer, settings, Path::forward_plus, channels),
-                deferred = drawnOnce(moving->renderer, settings, Path::deferred,
+    const Frame forward = drawnOnce(moving.renderer, settings, Path::forward_plus, channels),
+                deferred = drawnOnce(moving.renderer, settings, Path::deferred,
                                      {Channel::lit, Channel::material_id, Channel::depth});
     expectSameChannels(deferred, forward, 3);
     settings.skinning = Skinning::vertex;
     expectSameChannels(deferred,
-                       drawnOnce(moving->renderer, settings, Path::deferred,
+                       drawnOnce(moving.renderer, settings, Path::deferred,
                                  {Channel::lit, Channel::material_id, Channel::depth}),
                        3);
     // A pre-pass computes the same depth as the shading draws.
     for (const Switch prepass : {Switch::on, Switch::off}) {
         settings.prepass = prepass;
-        expectSameChannels(forward, drawnOnce(moving->renderer, settings, Path::forward_plus, channels),
+        expectSameChannels(forward, drawnOnce(moving.renderer, settings, Path::forward_plus, channels),
                            channels.size());
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, MovingParity, testing::ValuesIn(movingScenes), [](const auto& scene) {
-    return testName(std::filesystem::path(scene.param).stem().string());
-});
+INSTANTIATE_TEST_SUITE_P(Scene, MovingParity, testing::ValuesIn(movingScenes), sceneName);
 
 // Equal weights for a joint at rest and one scaled by 1/2 in x, computed by hand. The normal (1, 0, 1)
 // becomes (1.5, 0, 1) with each joint's inverse transpose, and (4, 0, 3) with that of their mean.
@@ -208,9 +191,7 @@ TEST(Moving, FramesOfSeveralTimesStayApart) {
 // The clipmap caches pages between images, except those that a moving caster touches.
 TEST(Moving, ShadowsThatAreKeptFollowTheirCaster) {
     const Scene scene = loadScene("builtin:motion");
-    Settings before = movingImage(0.2);
-    before.shadows = Shadows::clipmap;
-    before.clipmap_page_size = 32;
+    Settings before = with(movingImage(0.2), "shadows clipmap clipmap-page-size 32");
     Settings after = before;
     after.time = 0.9;
     Renderer kept(device(), scene, pipelines()), fresh(device(), scene, pipelines());
@@ -218,9 +199,7 @@ TEST(Moving, ShadowsThatAreKeptFollowTheirCaster) {
                 second = drawnOnce(kept, after, Path::deferred, {Channel::lit, Channel::shadow_visibility});
     expectSame(second, drawnOnce(fresh, after, Path::deferred, {Channel::lit, Channel::shadow_visibility}),
                "pages that were kept");
-    EXPECT_GT(differingPixels(first.channels.at(Channel::shadow_visibility),
-                              second.channels.at(Channel::shadow_visibility)),
-              10u);
+    EXPECT_GT(differingPixels(first, second, Channel::shadow_visibility), 10u);
     EXPECT_LT(second.counters.shadow_pages.drawn, second.counters.shadow_pages.resident);
 }
 
@@ -253,11 +232,7 @@ Scene vanishingCasters() {
         const int n = static_cast<int>(animation.channels.size());
         animation.channels.push_back({.keyframes = n, .part = part, .object = n});
     }
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.direction = {0, -1, 0};
-    sun.intensity = 3;
-    scene.lights.push_back(sun);
+    scene.lights.push_back(sunAlong({0, -1, 0}, 3));
     scene.cameras.resize(1);
     scene.cameras[0].world_from_camera =
         glm::inverse(glm::lookAt(glm::dvec3(0, 6, 6), glm::dvec3(0), glm::dvec3(0, 1, 0)));
@@ -278,9 +253,7 @@ TEST(Moving, ShadowsThatAreKeptFollowTheirCastersMaterial) {
                 second = drawnOnce(kept, after, Path::deferred, {Channel::lit, Channel::shadow_visibility});
     expectSame(second, drawnOnce(fresh, after, Path::deferred, {Channel::lit, Channel::shadow_visibility}),
                "pages that were kept");
-    EXPECT_GT(differingPixels(first.channels.at(Channel::shadow_visibility),
-                              second.channels.at(Channel::shadow_visibility)),
-              100u);
+    EXPECT_GT(differingPixels(first, second, Channel::shadow_visibility), 100u);
 }
 
 // Another time of the same scene uploads only a pose and compiles nothing.
@@ -391,24 +364,19 @@ TEST(Moving, TrianglesOfTheLivePoseAreBlendedInTheirOrder) {
 
 // Silhouettes in float32 and in double differ only where an edge passes a pixel's centre.
 TEST_P(MovingParity, SilhouettesAreTheReferences) {
-    UploadedScene* const moving = scene();
-    if (moving == nullptr)
-        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << GetParam() << "; builtin:motion proves it";
+    UploadedScene& moving = uploaded(name());
     for (const double time : {0.3, 0.7}) {
         Settings settings = movingImage(time);
         settings.haze = false;
         settings.lights = "";
         settings.shadow_lights = 0;
-        const Frame drawn = drawnOnce(moving->renderer, settings, Path::forward_plus,
+        const Frame drawn = drawnOnce(moving.renderer, settings, Path::forward_plus,
                                       {Channel::lit, Channel::material_id, Channel::depth});
         Settings asked = settings;
         asked.reference_mode = ReferenceMode::scene;
-        const Frame truth = drawnOnce(moving->renderer, asked, Path::reference,
+        const Frame truth = drawnOnce(moving.renderer, asked, Path::reference,
                                       {Channel::lit, Channel::material_id, Channel::depth});
-        EXPECT_LE(differingPixels(drawn.channels.at(Channel::material_id),
-                                  truth.channels.at(Channel::material_id), true),
-                  3u)
-            << time;
+        EXPECT_LE(differingPixels(drawn, truth, Channel::material_id, true), 3u) << time;
         EXPECT_GT(coveredPixels(drawn), 100u);
         const Image &a = drawn.channels.at(Channel::depth), &b = truth.channels.at(Channel::depth);
         std::size_t apart = 0;
@@ -417,9 +385,8 @@ TEST_P(MovingParity, SilhouettesAreTheReferences) {
         EXPECT_LE(apart, 3u) << time;
         // Control: a stale pose is far off.
         settings.time = 0;
-        const Frame stale = drawnOnce(moving->renderer, settings, Path::forward_plus, {Channel::lit});
-        EXPECT_GT(differingPixels(stale.channels.at(Channel::lit), drawn.channels.at(Channel::lit)), 20u)
-            << time;
+        const Frame stale = drawnOnce(moving.renderer, settings, Path::forward_plus, {Channel::lit});
+        EXPECT_GT(differingPixels(stale, drawn, Channel::lit), 20u) << time;
     }
 }
 

@@ -76,21 +76,13 @@ private:
     float exposure_ = 1;
 };
 
-class MsaaEdgesOf : public testing::TestWithParam<std::string> {
-protected:
-    static Scene sceneOf(const std::string& name) {
-        return loadScene(name.starts_with("builtin:") ? name : (assets() / name).string());
-    }
-};
+class MsaaEdgesOf : public SceneTest {};
 
 // `exact` shades every difference. `similar` finds 99.9 % of the visible ones. Wherever the image of
 // `similar` or `coverage` differs, fewer Surfaces were shaded, as the channel reports.
 TEST_P(MsaaEdgesOf, RecallAndWhereTheyDiffer) {
-    if (!GetParam().starts_with("builtin:") && !std::filesystem::exists(assets() / GetParam()))
-        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << assets() / GetParam()
-                     << "; the built-in scenes prove it";
     const Size size{640, 360};
-    SampledScene scene(sceneOf(GetParam()));
+    SampledScene scene(loadScene(name()));
     Renderer renderer(device(), scene.scene, pipelines());
     const std::vector<Image> all = scene.draw(sampled(size, MsaaEdges::all));
     const DisplayLevel seen(all);
@@ -130,7 +122,7 @@ TEST_P(MsaaEdgesOf, RecallAndWhereTheyDiffer) {
 INSTANTIATE_TEST_SUITE_P(Msaa, MsaaEdgesOf,
                          testing::Values("builtin:gallery", "builtin:spheres", "builtin:cutout",
                                          "flight_helmet/FlightHelmet.gltf", "sponza/Sponza.gltf"),
-                         [](const auto& scene) { return testName(scene.param); });
+                         sceneName);
 
 // Negative control: detecting edges by partially covered triangles misses intersections of two triangles.
 TEST(MsaaEdges, RecallNoticesWhatIsMissed) {

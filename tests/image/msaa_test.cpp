@@ -41,15 +41,14 @@ void expectTheSame(Renderer& renderer, const Settings& settings, const std::stri
         Settings other = settings;
         other.msaa_edges = edges;
         const Frame deferred = litOf(renderer, other, Path::deferred);
-        EXPECT_EQ(differingPixels(forward.channels.at(Channel::lit), deferred.channels.at(Channel::lit)), 0u)
-            << what << " " << nameOf(edges);
+        EXPECT_EQ(differingPixels(forward, deferred, Channel::lit), 0u) << what << " " << nameOf(edges);
         EXPECT_EQ(deferred.counters.unreproduced_pixels, 0u) << what << " " << nameOf(edges);
     }
 }
 
 constexpr std::array shadings{MsaaShading::pixel, MsaaShading::sample};
 
-class MsaaBuiltin : public testing::TestWithParam<const char*> {};
+class MsaaBuiltin : public SceneTest {};
 
 TEST_P(MsaaBuiltin, BothPathsAreBitEqual) {
     UploadedScene& scene = uploaded(GetParam());
@@ -62,19 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Msaa, MsaaBuiltin,
                                          "builtin:glass", "builtin:cutout", "builtin:lightmaps",
                                          "builtin:areas", "builtin:motion", "builtin:ortho",
                                          "builtin:many_materials"),
-                         [](const auto& scene) { return testName(std::string(scene.param).substr(8)); });
-
-// Real scenes with every feature of both paths, at a time after animated parts have moved: under a
-// non-uniform sky, in haze, with shadows of the sun and of lamps. A campaign renders all of them.
-std::vector<std::string> sampledAssets() {
-    if (isCampaign()) return assetScenes();
-    return {"flight_helmet/FlightHelmet.gltf",
-            "sponza/Sponza.gltf",
-            "cesium_man/CesiumMan.gltf",
-            "tree/scene.gltf",
-            "features/alpha_mask/01_alpha_mask.gltf",
-            "features/glass_table/glass_table.glb"};
-}
+                         sceneName);
 
 Environment unevenSky() {
     Environment sky{"uneven", Image(16, 8, 3)};
@@ -85,23 +72,21 @@ Environment unevenSky() {
     return sky;
 }
 
-class MsaaAsset : public testing::TestWithParam<std::string> {};
+// Real scenes with every feature of both paths, at a time after animated parts have moved: under a
+// non-uniform sky, in haze, with shadows of the sun and of lamps. A campaign renders all of them.
+std::vector<std::string> sampledAssets() {
+    if (isCampaign()) return assetScenes();
+    return {"flight_helmet/FlightHelmet.gltf", "features/alpha_mask/01_alpha_mask.gltf",
+            "features/glass_table/glass_table.glb"};
+}
+class MsaaAsset : public SceneTest {};
 
 TEST_P(MsaaAsset, BothPathsAreBitEqual) {
-    const std::filesystem::path file = assets() / GetParam();
-    if (!std::filesystem::exists(file))
-        GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the built-in scenes prove it";
-    Scene scene = loadScene(file.string());
+    Scene scene = loadScene(name());
     scene.environment = unevenSky();
-    Settings settings = sampled({64, 36});
-    settings.lights = "point:12,spot:4";
-    settings.env = "scene";
-    settings.ibl_samples = 32;
-    settings.shadows = Shadows::pcf;
-    settings.shadow_lights = 2;
-    settings.haze = true;
-    settings.haze_density = 100;
-    settings.time = 0.4;
+    Settings settings = with(sampled({64, 36}),
+                             "lights point:12,spot:4 env scene ibl-samples 32 shadows pcf shadow-lights 2 "
+                             "haze on haze-density 100 time 0.4");
     Renderer renderer(device(), scene, pipelines());
     for (const MsaaShading shading : shadings) {
         settings.msaa_shading = shading;
@@ -109,35 +94,32 @@ TEST_P(MsaaAsset, BothPathsAreBitEqual) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Msaa, MsaaAsset, testing::ValuesIn(sampledAssets()), [](const auto& scene) {
-    return testName(std::filesystem::path(scene.param).stem().string());
-});
+INSTANTIATE_TEST_SUITE_P(Msaa, MsaaAsset, testing::ValuesIn(sampledAssets()), sceneName);
 
 // Every channel is that of the first sample, in both paths.
 TEST(Msaa, EveryChannelIsTheSameInBothPaths) {
-    for (const MsaaShading shading : shadings) {
-        const std::vector<Frame> frames =
-            bothPaths(uploaded("builtin:gallery").renderer, sampled({96, 54}, shading));
+    // Shading every sample compiles the gallery's many materials again.
+    for (const auto& [shading, scene] :
+         {std::pair{MsaaShading::pixel, "builtin:gallery"}, {MsaaShading::sample, "builtin:cutout"}}) {
+        const std::vector<Frame> frames = bothPaths(uploaded(scene).renderer, sampled({96, 54}, shading));
         expectSameChannels(frames[0], frames[1]);
         for (const Frame& frame : frames) EXPECT_EQ(frame.counters.nonfinite_pixels, 0u);
     }
 }
 
 TEST(Msaa, WithShadowsHazeAndAnEnvironment) {
-    Settings settings = sampled({64, 36});
-    settings.shadows = Shadows::pcf;
-    settings.shadow_lights = 2;
-    settings.haze = true;
-    settings.haze_density = 50;
-    settings.ambient = {0.1f, 0.2f, 0.3f};
+    Settings settings =
+        with(sampled({64, 36}),
+             "shadows pcf shadow-lights 2 lights point:3,spot:2 haze on haze-density 50 ambient 0.1,0.2,0.3");
+    Renderer& renderer = uploaded("builtin:cutout").renderer;
     for (const MsaaShading shading : shadings) {
         settings.msaa_shading = shading;
-        expectTheSame(uploaded("builtin:gallery").renderer, settings, std::string(nameOf(shading)));
+        expectTheSame(renderer, settings, std::string(nameOf(shading)));
     }
     for (const Shadows technique : {Shadows::evsm, Shadows::clipmap}) {
         settings.shadows = technique;
         settings.shadow_fit = technique == Shadows::evsm ? ShadowFit::depth : ShadowFit::view;
-        expectTheSame(uploaded("builtin:gallery").renderer, settings, std::string(nameOf(technique)));
+        expectTheSame(renderer, settings, std::string(nameOf(technique)));
     }
 }
 
@@ -161,17 +143,14 @@ TEST(Msaa, ListsHoldEveryLightOfAPixel) {
     scene.cameras[0].far = 100;
     Renderer renderer(device(), scene, pipelines());
     for (const MsaaShading shading : shadings) {
-        Settings settings = sampled({64, 64}, shading);
-        settings.lights = "point:200,spot:50";
-        settings.assign = Assignment::every;
+        Settings settings = with(sampled({64, 64}, shading), "lights point:200,spot:50 assign every");
         const Frame every = litOf(renderer, settings, Path::forward_plus);
         for (const Assignment assign : {Assignment::tiled, Assignment::clustered})
             for (const Path path : drawn_paths) {
                 settings.assign = assign;
                 settings.prepass = Switch::on;
                 const Frame listed = litOf(renderer, settings, path);
-                EXPECT_EQ(differingPixels(every.channels.at(Channel::lit), listed.channels.at(Channel::lit)),
-                          0u)
+                EXPECT_EQ(differingPixels(every, listed, Channel::lit), 0u)
                     << nameOf(assign) << " " << nameOf(path) << " " << nameOf(shading);
             }
     }
@@ -196,16 +175,11 @@ TEST(Msaa, SamplesAreShadedAtTheirMeanOrEach) {
 
 // A speck before the square covers one sample. Its depth, 0.5 m, is the least that shadows are fitted to.
 TEST(Msaa, ShadowsAreFittedToEverySample) {
-    Settings settings = sampled({4, 4});
-    settings.shadows = Shadows::pcf;
-    settings.shadow_fit = ShadowFit::depth;
+    Settings settings = with(sampled({4, 4}), "shadows pcf shadow-fit depth");
     for (const glm::vec2 sample :
          {glm::vec2(0.375f, 0.125f), {0.875f, 0.375f}, {0.125f, 0.625f}, {0.625f, 0.875f}}) {
         Scene scene = square();
-        Light sun;
-        sun.kind = LightKind::directional;
-        sun.direction = {0, 0, -1};
-        scene.lights = {sun};
+        scene.lights = {sunAlong({0, 0, -1})};
         const glm::vec2 at = (glm::vec2(2, 1) + sample) / 4.0f;
         scene.meshes[0].primitives.push_back(
             rectangle({at.x - 0.51f, 0.49f - at.y, 0.5f}, {0.02f, 0, 0}, {0, 0.02f, 0}));

@@ -15,10 +15,7 @@ Frame referenceLit(Renderer& renderer, Settings settings, int samples) {
     settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
     settings.spp = samples;
-    RenderOptions options;
-    options.channels = {Channel::lit};
-    options.runs = 0;
-    return renderer.draw(settings, options);
+    return renderer.draw(settings, untimed({Channel::lit}));
 }
 
 // As displayed: tone-mapped and in sRGB.

@@ -11,9 +11,7 @@ namespace {
 constexpr std::array compensations{Multiscatter::off, Multiscatter::energy, Multiscatter::fdez};
 
 Settings inFurnace(Multiscatter multiscatter) {
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.size = {240, 60};
-    settings.ambient = {1, 1, 1};
+    Settings settings = with(smallImage(GBufferEncoding::full), "size 240x60 ambient 1,1,1");
     settings.multiscatter = multiscatter;
     return settings;
 }
@@ -84,17 +82,12 @@ TEST_P(MultiscatterReference, BothPathsAreTheReference) {
     const auto [name, multiscatter] = GetParam();
     const bool gallery = std::string(name) == "builtin:gallery";
     UploadedScene& scene = uploaded(name);
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.shadows = Shadows::off;
-    settings.size = {96, 54};
-    settings.ambient = {0.3f, 0.4f, 0.5f};
+    Settings settings = with(smallImage(GBufferEncoding::full), "shadows off size 96x54 ambient 0.3,0.4,0.5");
     settings.multiscatter = multiscatter;
     Settings asked = settings;
     asked.path = Path::reference;
-    RenderOptions options;
-    options.channels = {Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse,
-                        Channel::material_id};
-    options.runs = 0;
+    const RenderOptions options =
+        untimed({Channel::lit_ambient, Channel::lit_specular, Channel::lit_diffuse, Channel::material_id});
     const Frame reference = scene.renderer.draw(asked, options);
     for (const Frame& path : bothPaths(scene.renderer, settings, options.channels)) {
         const Coverage covered = coverage(reference, path);

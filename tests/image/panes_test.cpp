@@ -198,9 +198,7 @@ TEST(Panes, EveryCombinationKeepsAWhiteFurnace) {
             b.add("pane", quad({-0.4, -0.4, 0}, {0.8, 0, 0}, {0, 0.8, 0}), material,
                   at(i - 2.5, layers - 1.5, 0));
         }
-    Settings settings = blendedImage();
-    settings.ambient = {1, 1, 1};
-    settings.multiscatter = Multiscatter::energy;
+    Settings settings = with(blendedImage(), "ambient 1,1,1 multiscatter energy");
     for (const Layers way : {Layers::gbuffer, Layers::forward}) {
         settings.layers = way;
         for (const Frame& frame : bothPaths(b.scene, settings, {Channel::lit, Channel::transmission})) {
@@ -229,9 +227,8 @@ TEST(Panes, BothPathsAreEqualBitForBit) {
         expectSameChannels(frames[0], frames[1], 2);
         if (transparency == Transparency::off) continue;
         settings.transparency = Transparency::sorted;
-        EXPECT_EQ(differingPixels(
-                      frames[0].channels.at(Channel::lit),
-                      drawnBy(Path::deferred, renderer, settings, {Channel::lit}).channels.at(Channel::lit)),
+        EXPECT_EQ(differingPixels(frames[0], drawnBy(Path::deferred, renderer, settings, {Channel::lit}),
+                                  Channel::lit),
                   0u)
             << name << ": nothing is blended";
     }
@@ -246,9 +243,7 @@ TEST(Panes, AreOffWithWhatIsBlended) {
     for (const Path path : drawn_paths) {
         Renderer renderer(device(), scene, pipelines()), bare(device(), wall, pipelines());
         const Frame off = drawnBy(path, renderer, settings, {Channel::lit, Channel::transmission});
-        EXPECT_EQ(differingPixels(off.channels.at(Channel::lit),
-                                  drawnBy(path, bare, settings, {Channel::lit}).channels.at(Channel::lit)),
-                  0u);
+        EXPECT_EQ(differingPixels(off, drawnBy(path, bare, settings, {Channel::lit}), Channel::lit), 0u);
         for (const float v : off.channels.at(Channel::transmission).data) EXPECT_EQ(v, 0);
     }
 }
@@ -272,9 +267,7 @@ TEST(Panes, LeavesOfOtherWeightsAreNotShadedAsOne) {
     b.add("leaves", all, material, glm::dvec3(0.0));
     b.sun({0, 0, 1}, glm::vec3(1), 2);  // from behind
     Renderer renderer(device(), b.scene, pipelines());
-    Settings settings = blendedImage();
-    settings.msaa = 4;
-    settings.msaa_edges = MsaaEdges::similar;
+    Settings settings = with(blendedImage(), "msaa 4 msaa-edges similar");
     const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
     const Image &deferred = frames[0].channels.at(Channel::lit),
                 &forward = frames[1].channels.at(Channel::lit);
@@ -303,10 +296,8 @@ TEST(Panes, LayersAreTheSameInLightBatches) {
     far.range = 0.1f;
     const std::size_t max = device().profile().light_iterations;
     many.lights.insert(many.lights.end(), 2 * max + 7, far);
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.size = {24, 14};
-    settings.assign = Assignment::every;
-    settings.ambient = {0.1f, 0.2f, 0.3f};
+    Settings settings =
+        with(smallImage(GBufferEncoding::full), "size 24x14 assign every ambient 0.1,0.2,0.3");
     std::vector<Channel> light{Channel::light_count};
     for (const Channel channel : litModes)
         if (channel != Channel::lit_environment) light.push_back(channel);

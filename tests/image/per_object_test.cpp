@@ -27,10 +27,7 @@ Settings image(Assignment assign, int pixels, Size size = {160, 90}) {
 }
 
 std::vector<Frame> drawnAll(const Scene& scene, const std::vector<Settings>& settings) {
-    RenderOptions options;
-    options.channels = {Channel::lit, Channel::light_count, Channel::material_id};
-    options.runs = 0;
-    return drawAll(scene, settings, options);
+    return drawAll(scene, settings, untimed({Channel::lit, Channel::light_count, Channel::material_id}));
 }
 
 Frame drawn(const Scene& scene, Assignment assign, int pixels, Size size = {160, 90}) {
@@ -167,9 +164,7 @@ TEST(PerObject, ALightmappedObjectGetsNoHarmonics) {
         objects.size = {160, 90};
         objects.assign = Assignment::per_object;
         objects.pixel_lights = 0;
-        RenderOptions options;
-        options.channels = {Channel::lit_diffuse};
-        options.runs = 0;
+        const RenderOptions options = untimed({Channel::lit_diffuse});
         double sum = 0;
         const std::vector<Frame> frames = drawAll(s, {objects}, options);
         for (const float v : frames.front().channels.at(options.channels.front()).data) sum += double{v};

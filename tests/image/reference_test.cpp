@@ -13,10 +13,7 @@ namespace {
 Frame reference(Renderer& renderer, Settings settings, ReferenceMode mode = ReferenceMode::surface) {
     settings.path = Path::reference;
     settings.reference_mode = mode;
-    RenderOptions options;
-    options.channels = allChannels();
-    options.runs = 0;
-    return renderer.draw(settings, options);
+    return renderer.draw(settings, untimed(allChannels()));
 }
 Frame reference(const Scene& scene, const Settings& settings, ReferenceMode mode = ReferenceMode::surface) {
     Renderer renderer(device(), scene, pipelines());
@@ -67,9 +64,7 @@ TEST(Reference, BothPathsDrawSponza) {
     const std::filesystem::path file = assets() / "sponza/Sponza.gltf";
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << file << "; the gallery proves it";
-    Settings settings = unshadowed();
-    settings.size = {240, 135};
-    settings.lights = "point:12,spot:4";
+    Settings settings = with(unshadowed(), "size 240x135 lights point:12,spot:4");
     expectAgreement(loadScene(file.string()), settings);
 }
 
@@ -156,8 +151,7 @@ TEST(Reference, ALightAHundredthBrighterIsSeenBetweenItsModes) {
     EXPECT_GT(fractionBeyond(traced, surface, Channel::lit, samePlaces(traced, surface)), 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinReference, testing::ValuesIn(builtinScenes()),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+INSTANTIATE_TEST_SUITE_P(Builtin, BuiltinReference, testing::ValuesIn(builtinScenes()), sceneName);
 
 // ---- injected faults ---------------------------------------------------------------------------------
 

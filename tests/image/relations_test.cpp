@@ -47,8 +47,9 @@ TEST(RelationImages, AllHoldUnderManyLights) {
     expectAllHold("spheres?lights=16", 4, {"lights_split", "turned", "mirrored", "tiles_shifted"});
 }
 TEST(RelationImages, AllHoldWhereTexturesCutHoles) {
-    expectAllHold("cutout", 6,
-                  {"turned", "mirrored", "tiles_shifted", "triangles_split", "unindexed", "draws_reversed"});
+    expectAllHold("cutout", 9,
+                  {"turned", "mirrored", "tiles_shifted", "triangles_split", "unindexed", "draws_reversed",
+                   "through_gltf", "through_glb", "materials_permuted"});
 }
 TEST(RelationImages, AllHoldWhereThingsMove) {
     expectAllHold("motion", 6, {"moved", "turned", "mirrored", "scaled", "tiles_shifted", "draws_reversed"});

@@ -19,13 +19,8 @@ Settings tracedImage() {
 }
 
 Frame tracedReference(UploadedScene& scene) {
-    Settings settings = tracedImage();
-    settings.path = Path::reference;
-    settings.reference_mode = ReferenceMode::scene;
-    RenderOptions options;
-    options.channels = allChannels();
-    options.runs = 0;
-    return scene.renderer.draw(settings, options);
+    Settings settings = with(tracedImage(), "path reference reference-mode scene");
+    return scene.renderer.draw(settings, untimed(allChannels()));
 }
 
 // Failed channels of the paths that render `drawn`, against the reference of `scene`: "forward_plus
@@ -62,7 +57,7 @@ TEST_P(SceneVerdict, SoundPathsPass) {
 INSTANTIATE_TEST_SUITE_P(Builtin, SceneVerdict,
                          testing::Values("builtin:gallery", "builtin:cutout", "builtin:lightmaps",
                                          "builtin:ortho"),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+                         sceneName);
 
 struct SharedFault {
     const char* channel;

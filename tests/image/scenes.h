@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <list>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -129,10 +130,40 @@ inline std::string testName(const std::string& text) {
     return name;
 }
 
+// A TEST for each scene of a table: a built-in one, or a file of assets() or layeredAssets().
+class SceneTest : public testing::TestWithParam<std::string> {
+protected:
+    void SetUp() override {
+        if (!isBuiltin() && !std::filesystem::exists(name()))
+            GTEST_SKIP() << "SKIPPED, NOT PROVED HERE: no " << name() << "; the built-in scenes prove it";
+    }
+    static bool isBuiltin() { return GetParam().starts_with("builtin:"); }
+    // As loadScene() takes it.
+    static std::string name() {
+        if (isBuiltin()) return GetParam();
+        const std::filesystem::path layered = layeredAssets() / GetParam();
+        return (std::filesystem::exists(layered) ? layered : assets() / GetParam()).string();
+    }
+};
+
+// Its name: builtin:NAME without the prefix, or a file's stem.
+inline std::string sceneName(const testing::TestParamInfo<std::string>& scene) {
+    const std::string& name = scene.param;
+    return testName(name.starts_with("builtin:") ? name.substr(8)
+                                                 : std::filesystem::path(name).stem().string());
+}
+
 inline std::vector<Channel> allChannels() {
     std::vector<Channel> modes;
     for (const DebugMode& mode : debugModes()) modes.push_back(mode.channel);
     return modes;
+}
+
+inline RenderOptions untimed(std::vector<Channel> channels = {Channel::lit}) {
+    RenderOptions options;
+    options.channels = std::move(channels);
+    options.runs = 0;
+    return options;
 }
 
 // One Frame per Settings, in order, on device().
@@ -147,9 +178,7 @@ inline std::vector<Frame> drawAll(const Scene& scene, const std::vector<Settings
 // The Frame of one path, untimed. Fewer channels need fewer pipelines.
 inline Frame drawnBy(Path path, Renderer& renderer, Settings settings,
                      const std::vector<Channel>& channels = allChannels()) {
-    RenderOptions options;
-    options.channels = channels;
-    options.runs = 0;
+    RenderOptions options = untimed(channels);
     options.through_gbuffer = true;
     settings.path = path;
     return renderer.draw(settings, options);
@@ -206,6 +235,15 @@ inline UploadedScene& uploaded(const std::string& name) {
     return scenes.front().second;
 }
 
+// A sun whose light travels along `direction`.
+inline Light sunAlong(const glm::dvec3& direction, float intensity = Light().intensity) {
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = direction;
+    sun.intensity = intensity;
+    return sun;
+}
+
 // Default settings of tests: shadows would take a third more time where they are not the subject.
 inline Settings unshadowed() {
     Settings settings;
@@ -222,6 +260,13 @@ inline Settings assetImage(GBufferEncoding gbuffer) {
     return settings;
 }
 
+// `settings` with `options` and their values: "shadows evsm shadow-size 256".
+inline Settings with(Settings settings, const std::string& options) {
+    std::istringstream words(options);
+    for (std::string option, value; words >> option >> value;) settings.set(option, value);
+    return settings;
+}
+
 inline Settings smallImage(GBufferEncoding gbuffer) {
     Settings settings = unshadowed();
     settings.gbuffer = gbuffer;
@@ -234,6 +279,11 @@ inline Settings smallImage(GBufferEncoding gbuffer) {
 inline std::size_t differingPixels(const Image& a, const Image& b, bool bits = device().profile().bit_exact) {
     if (a.width != b.width || a.height != b.height || a.components != b.components) return a.pixels() + 1;
     return unequalPixels(a, b, bits ? 0 : gpuUlps);
+}
+
+inline std::size_t differingPixels(const Frame& a, const Frame& b, Channel channel,
+                                   bool bits = device().profile().bit_exact) {
+    return differingPixels(a.channels.at(channel), b.channels.at(channel), bits);
 }
 
 // Every common channel must be the same, and there must be at least `min` of them.

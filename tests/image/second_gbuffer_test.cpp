@@ -80,10 +80,7 @@ TEST(SecondGBuffer, OfTwoSurfacesAtOneDepthTheLastIsStored) {
             scene.meshes[1].primitives[0].material = 1;
             addEveryLayer(scene.materials[0]);
             scene.materials[1].double_sided = plain_last;
-            Light sun;
-            sun.kind = LightKind::directional;
-            sun.direction = glm::normalize(glm::dvec3(-0.3, -0.2, -1));
-            scene.lights = {sun};
+            scene.lights = {sunAlong(glm::normalize(glm::dvec3(-0.3, -0.2, -1)))};
             Settings settings = smallImage(GBufferEncoding::full);
             settings.size = {8, 8};
             settings.msaa = samples;
@@ -102,9 +99,7 @@ TEST(SecondGBuffer, PackedLayersAreStored) {
     m.emissive = {1, 1, 1};
     m.lightmap_texture.texture = 0;
     for (const GBufferEncoding encoding : {GBufferEncoding::standard, GBufferEncoding::compact}) {
-        Settings settings = smallImage(encoding);
-        settings.size = {4, 4};
-        settings.msaa = 4;
+        Settings settings = with(smallImage(encoding), "size 4x4 msaa 4");
         ASSERT_TRUE(hasSecondPass(scene, settings));
         Renderer renderer(device(), scene, pipelines());
         const Frame frame =

@@ -211,9 +211,7 @@ TEST(ShadowSeams, AreNoWiderThanTexels) {
     camera.near = 0.1;
     camera.world_from_camera =
         glm::inverse(glm::lookAt(glm::dvec3(-1, 2, 50), glm::dvec3(-1, 0, 30), glm::dvec3(0, 1, 0)));
-    Settings settings = cascaded(size, 256, 4);
-    settings.shadow_distance = 60;
-    settings.shadow_bias = 0.5f;
+    Settings settings = with(cascaded(size, 256, 4), "shadow-distance 60 shadow-bias 0.5");
     const Frame frame = drawnCascades(scene, settings);
     struct Row {
         int cascade;

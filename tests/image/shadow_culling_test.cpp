@@ -25,15 +25,13 @@ Settings shadowedBy(Shadows shadows, int size, int kernel) {
 
 // Compares culled casters with all casters.
 void expectSame(Renderer& forNeeded, Renderer& forAll, Settings settings, const std::string& name) {
-    RenderOptions options;
-    options.channels = {Channel::lit, Channel::shadow_visibility, Channel::local_visibility};
-    options.runs = 0;
+    const RenderOptions options =
+        untimed({Channel::lit, Channel::shadow_visibility, Channel::local_visibility});
     const Frame needed = forNeeded.draw(settings, options);
     settings.shadow_casters = ShadowCasters::all;
     const Frame all = forAll.draw(settings, options);
     for (const Channel channel : options.channels)
-        EXPECT_EQ(differingPixels(needed.channels.at(channel), all.channels.at(channel)), 0u)
-            << name << " " << debugMode(channel).name;
+        EXPECT_EQ(differingPixels(needed, all, channel), 0u) << name << " " << debugMode(channel).name;
 }
 // With separate renderers: clipmap pages are cached.
 void expectSame(const Scene& scene, const Settings& settings, const std::string& name) {
@@ -117,7 +115,7 @@ TEST_P(ShadowCullingOf, ChangesNoBit) {
 INSTANTIATE_TEST_SUITE_P(Builtin, ShadowCullingOf,
                          testing::Values("builtin:gallery", "builtin:suns", "builtin:ortho", "builtin:cutout",
                                          "builtin:deep", "builtin:far_away"),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+                         sceneName);
 
 // Fewer triangles are drawn into the shadow maps.
 TEST(ShadowCulling, LeavesOutMostOfWhatIsNotSeen) {

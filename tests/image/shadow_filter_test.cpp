@@ -28,10 +28,7 @@ Settings filteredBy(Shadows shadows, GBufferEncoding gbuffer, int size = 256, in
 }
 
 Frame drawnOnce(Renderer& renderer, const Settings& settings, const std::vector<Channel>& channels) {
-    RenderOptions options;
-    options.channels = channels;
-    options.runs = 0;
-    return renderer.draw(settings, options);
+    return renderer.draw(settings, untimed(channels));
 }
 Frame drawnOnce(const Scene& scene, const Settings& settings, const std::vector<Channel>& channels) {
     Renderer renderer(device(), scene, pipelines());
@@ -65,9 +62,7 @@ TEST_P(ShadowFilters, SeeTheSameInBothPaths) {
             << nameOf(shadows);
         EXPECT_TRUE(std::ranges::all_of(seen.data, [](float v) { return v >= 0 && v <= 1; }));
         if (encoding == GBufferEncoding::full) {
-            EXPECT_EQ(
-                differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u)
-                << nameOf(shadows);
+            EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::lit), 0u) << nameOf(shadows);
         }
     }
 }
@@ -85,7 +80,7 @@ TEST_P(ShadowFilters, MapsFitWhatTheImageShows) {
         bothPaths(renderer, settings,
                   {Channel::shadow_visibility, Channel::cascade, Channel::depth, Channel::material_id});
     for (const Channel channel : {Channel::shadow_visibility, Channel::cascade})
-        EXPECT_EQ(differingPixels(frames[0].channels.at(channel), frames[1].channels.at(channel)), 0u);
+        EXPECT_EQ(differingPixels(frames[0], frames[1], channel), 0u);
     float near = std::numeric_limits<float>::infinity(), far = 0;
     for (std::size_t i = 0; i < frames[0].channels.at(Channel::material_id).pixels(); ++i) {
         if (*frames[0].channels.at(Channel::material_id).pixel(i) < 0) continue;
@@ -112,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ShadowFilters,
                          testing::Values("builtin:gallery", "builtin:spheres", "builtin:suns",
                                          "builtin:ortho", "builtin:cutout", "builtin:deep",
                                          "builtin:far_away"),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+                         sceneName);
 
 // A sun without angular size is a point: its soft shadow is that of pcf.
 TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
@@ -123,7 +118,7 @@ TEST(ShadowPcss, OfASunWithoutAnAngleIsPcf) {
     };
     const Frame soft = by(Shadows::pcss), hard = by(Shadows::pcf);
     for (const Channel channel : {Channel::lit, Channel::shadow_visibility})
-        EXPECT_EQ(differingPixels(soft.channels.at(channel), hard.channels.at(channel)), 0u);
+        EXPECT_EQ(differingPixels(soft, hard, channel), 0u);
     EXPECT_TRUE(std::ranges::any_of(soft.notes, [](const std::string& note) {
         return note.find("has no angular size") != std::string::npos;
     }));
@@ -142,10 +137,7 @@ Scene underARoof(double height, float angle, bool along_z = false, double fov = 
     scene.nodes.push_back({"roof", -1, glm::dmat4(1.0), 0});
     scene.materials.resize(2);
     for (Material& material : scene.materials) material.double_sided = true;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = 3;
-    sun.direction = {0, -1, 0};
+    Light sun = sunAlong({0, -1, 0}, 3);
     sun.angle = angle;
     scene.lights.push_back(sun);
     Camera camera;
@@ -186,9 +178,8 @@ TEST(ShadowPcss, APenumbraIsAsWideAsTheFormula) {
     for (const bool along_z : {false, true})
         for (const float angle : {0.03f, 0.09f})
             for (const double height : {0.5, 1.0}) {
-                Settings settings = filteredBy(Shadows::pcss, GBufferEncoding::full, 1024);
-                settings.shadow_cascades = 1;
-                settings.size = {320, 180};
+                Settings settings = with(filteredBy(Shadows::pcss, GBufferEncoding::full, 1024),
+                                         "shadow-cascades 1 size 320x180");
                 const Scene scene = underARoof(height, angle, along_z);
                 const Frame frame = drawnOnce(
                     scene, settings, {Channel::shadow_visibility, Channel::material_id, Channel::position});
@@ -221,9 +212,8 @@ TEST(ShadowPcss, OnlyWhatLiesInTheConeBlocks) {
     Primitive board = scene.meshes[0].primitives[1];  // x from -4 to 0
     for (glm::vec3& p : board.positions) p = {p.x + 4 + edge, low, p.z};
     scene.meshes[0].primitives.push_back(board);
-    Settings settings = filteredBy(Shadows::pcss, GBufferEncoding::full, 1024);
-    settings.shadow_cascades = 1;
-    settings.size = {320, 180};
+    Settings settings =
+        with(filteredBy(Shadows::pcss, GBufferEncoding::full, 1024), "shadow-cascades 1 size 320x180");
     int penumbra = 0;
     for (const Crossed& c : across(drawnOnce(
              scene, settings, {Channel::shadow_visibility, Channel::material_id, Channel::position}))) {
@@ -241,10 +231,8 @@ TEST(ShadowMoments, AreBlurredAcrossAndDown) {
         for (const bool along_z : {false, true}) {
             std::map<int, double> width;
             for (const int kernel : {1, 7}) {
-                Settings settings = filteredBy(shadows, GBufferEncoding::full, 512, kernel);
-                settings.shadow_cascades = 1;
-                settings.size = {320, 180};
-                settings.shadow_bias = 0;
+                Settings settings = with(filteredBy(shadows, GBufferEncoding::full, 512, kernel),
+                                         "shadow-cascades 1 size 320x180 shadow-bias 0");
                 constexpr double texel = 8.0 / 500;
                 double from = 1, to = -1, middle = 0;
                 int pixels = 0;

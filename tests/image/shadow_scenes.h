@@ -19,12 +19,8 @@ namespace diptych::tests {
 // A sun `degrees` above the horizon, towards +X and a little +Z.
 inline Light sunAt(double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = 3;
-    sun.direction =
-        -glm::dvec3(std::cos(angle) * std::cos(0.3), std::sin(angle), std::cos(angle) * std::sin(0.3));
-    return sun;
+    return sunAlong(
+        -glm::dvec3(std::cos(angle) * std::cos(0.3), std::sin(angle), std::cos(angle) * std::sin(0.3)), 3);
 }
 
 // The ground, 8 m x 8 m around the origin, with objects on it, seen from above.

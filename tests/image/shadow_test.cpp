@@ -24,10 +24,7 @@ Settings shadowed(const Settings& settings, int size = 2048, int kernel = 3) {
 Frame drawn(const Scene& scene, const Settings& settings,
             const std::vector<Channel>& channels = {Channel::shadow_visibility, Channel::cascade,
                                                     Channel::depth, Channel::material_id}) {
-    RenderOptions options;
-    options.channels = channels;
-    options.runs = 0;
-    return drawAll(scene, {settings}, options).front();
+    return drawAll(scene, {settings}, untimed(channels)).front();
 }
 
 // Minimum and maximum visibility over the covered pixels that a predicate of position accepts.
@@ -63,7 +60,7 @@ TEST_P(ShadowPaths, SeeTheSame) {
                       {Channel::shadow_visibility, Channel::cascade, Channel::lit});
         for (const Frame& frame : frames) EXPECT_EQ(frame.counters.unreproduced_pixels, 0u);
         for (const Channel mode : {Channel::shadow_visibility, Channel::cascade})
-            EXPECT_EQ(differingPixels(frames[0].channels.at(mode), frames[1].channels.at(mode)), 0u)
+            EXPECT_EQ(differingPixels(frames[0], frames[1], mode), 0u)
                 << debugMode(mode).name << " " << kernel;
     }
 }
@@ -76,9 +73,7 @@ TEST_P(ShadowPaths, AreTheReferencesAwayFromEdges) {
     Settings truth = settings;
     truth.path = Path::reference;
     Renderer& renderer = uploaded(GetParam()).renderer;
-    RenderOptions options;
-    options.channels = {Channel::shadow_visibility, Channel::depth, Channel::material_id};
-    options.runs = 0;
+    const RenderOptions options = untimed({Channel::shadow_visibility, Channel::depth, Channel::material_id});
     const Frame path = renderer.draw(settings, options), reference = renderer.draw(truth, options);
     ASSERT_FALSE(reference.shadow_edge.empty());
     std::size_t covered = 0, near = 0, falseLit = 0, falseDark = 0;
@@ -113,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, ShadowPaths,
                          testing::Values("builtin:gallery", "builtin:spheres", "builtin:suns",
                                          "builtin:ortho", "builtin:cutout", "builtin:deep",
                                          "builtin:far_away"),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+                         sceneName);
 
 // A plane never shadows itself at any grazing angle, with any filter.
 TEST(ShadowPlane, IsFullyLitAtEveryAngle) {
@@ -206,7 +201,7 @@ TEST(ShadowCasters, AreShadedPerPixelWithLightsByObject) {
     settings.assign = Assignment::per_object;
     settings.pixel_lights = 0;
     const Frame objects = drawn(scene, settings, {Channel::lit, Channel::material_id});
-    EXPECT_EQ(differingPixels(every.channels.at(Channel::lit), objects.channels.at(Channel::lit)), 0u);
+    EXPECT_EQ(differingPixels(every, objects, Channel::lit), 0u);
     const Image& image = every.channels.at(Channel::lit);
     std::size_t dark = 0;
     for (std::size_t i = 0; i < image.pixels(); ++i)
@@ -224,9 +219,7 @@ TEST(ShadowCasters, AreOfTheBrightestSun) {
     weak.intensity = 2;
     scene.lights.insert(scene.lights.begin(), weak);
     const Frame both = drawn(scene, settings);
-    EXPECT_EQ(differingPixels(alone.channels.at(Channel::shadow_visibility),
-                              both.channels.at(Channel::shadow_visibility)),
-              0u);
+    EXPECT_EQ(differingPixels(alone, both, Channel::shadow_visibility), 0u);
     scene.lights.clear();
     Light lamp;
     lamp.position = {0, 2, 0};

@@ -72,8 +72,7 @@ TEST(SkippedWork, WhatIsCapturedChangesNoOtherChannel) {
             all.channels = allChannels();
             const Frame one = drawAll(scene, {settings}, lit).front(),
                         every = drawAll(scene, {settings}, all).front();
-            EXPECT_EQ(differingPixels(one.channels.at(Channel::lit), every.channels.at(Channel::lit), true),
-                      0u)
+            EXPECT_EQ(differingPixels(one, every, Channel::lit, true), 0u)
                 << nameOf(path) << ", " << nameOf(encoding);
         }
 }
@@ -91,7 +90,7 @@ TEST(SkippedWork, ARowOfAnExperimentDrawsLightOnce) {
         const Frame checked = renderer.draw(smallFrame(path), options);
         EXPECT_GT(renderer.pipelines(), made) << nameOf(path);
         for (const Channel channel : {Channel::lit, Channel::shadow_visibility})
-            EXPECT_EQ(differingPixels(row.channels.at(channel), checked.channels.at(channel), true), 0u)
+            EXPECT_EQ(differingPixels(row, checked, channel, true), 0u)
                 << nameOf(path) << " " << debugMode(channel).name;
     }
 }
@@ -123,9 +122,7 @@ TEST(SkippedWork, OverdrawIsThatOfEverySize) {
         Settings settings = smallFrame(Path::forward_plus);
         settings.prepass = Switch::automatic;
         settings.size = size;
-        RenderOptions options;
-        options.channels = {Channel::lit};
-        options.runs = 0;
+        RenderOptions options = untimed({Channel::lit});
         std::vector<std::string> said;
         options.on_step = [&](const std::string& step) { said.push_back(step); };
         const Frame frame = drawAll(scene, {settings}, options).front();

@@ -62,11 +62,7 @@ inline Scene displacedSheet(int bumps = 4, double slope = 0.5, int cells = 192) 
     metal.roughness = 0.15f;
     metal.base_color = {0.9f, 0.8f, 0.6f, 1};
     scene.materials.push_back(metal);
-    Light sun;
-    sun.kind = LightKind::directional;
-    sun.intensity = 3;
-    sun.direction = glm::normalize(glm::dvec3(0.05, -0.9, 0.5));
-    scene.lights.push_back(sun);
+    scene.lights.push_back(sunAlong(glm::normalize(glm::dvec3(0.05, -0.9, 0.5)), 3));
     Camera camera;
     camera.yfov = glm::radians(40.0);
     camera.near = 0.01;

@@ -181,9 +181,7 @@ TEST(TexelSharing, ANormalOfOneColorWidensHighlightsAlike) {
         p.normals[i] = glm::normalize(p.positions[i] * 0.5f + glm::vec3(0, 0, 1));
     Scene sampled = one;
     sampled.images[0].rgba[sampled.images[0].rgba.size() - 3] ^= 255;
-    Settings settings = litImage();
-    settings.spec_aa = true;
-    settings.spec_aa_normals = SpecularNormals::mapped;
+    Settings settings = with(litImage(), "spec-aa on spec-aa-normals mapped");
     expectSameImages(one, sampled, settings);
 }
 
@@ -237,9 +235,7 @@ TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
                 EXPECT_GT(worst[0], 0.01) << "it was magnified";
             }
             for (const Channel channel : {albedo, normals, emission, occlusion})
-                EXPECT_EQ(differingPixels(apart[i].channels.at(channel), together[i].channels.at(channel)),
-                          0u)
-                    << debugMode(channel).name;
+                EXPECT_EQ(differingPixels(apart[i], together[i], channel), 0u) << debugMode(channel).name;
         }
     }
 }

@@ -319,33 +319,28 @@ TEST(Refraction, OnlyRoughSurfacesHaveAMipChain) {
     EXPECT_EQ(levels(0, true), 7u);
 }
 
-void expectSamePaths(int msaa, MsaaShading shading = MsaaShading::pixel) {
+void expectSamePaths(Layers layers, int msaa = 1, MsaaShading shading = MsaaShading::pixel) {
     const Scene scene = loadScene("builtin:transmission");
     Renderer renderer(device(), scene, pipelines());
-    Settings settings = smallImage(GBufferEncoding::full);
-    settings.ambient = {0.1f, 0.2f, 0.3f};
-    settings.shadows = Shadows::pcf;
-    settings.haze = true;
+    Settings settings = with(smallImage(GBufferEncoding::full), "ambient 0.1,0.2,0.3 shadows pcf haze on");
     settings.msaa = msaa;
     settings.msaa_shading = shading;
-    for (const Layers layers : {Layers::gbuffer, Layers::forward}) {
-        settings.layers = layers;
-        const std::vector<Frame> frames = bothPaths(renderer, settings);
-        expectSameChannels(frames[0], frames[1], 30);
-        for (const Frame& frame : frames) {
-            EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << frame.name << nameOf(layers);
-            EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name << nameOf(layers);
-        }
+    settings.layers = layers;
+    const std::vector<Frame> frames = bothPaths(renderer, settings);
+    expectSameChannels(frames[0], frames[1], 30);
+    for (const Frame& frame : frames) {
+        EXPECT_EQ(frame.counters.unreproduced_pixels, 0u) << frame.name << nameOf(layers);
+        EXPECT_EQ(frame.counters.nonfinite_pixels, 0u) << frame.name << nameOf(layers);
     }
 }
 
 TEST(Refraction, BothPathsAreEqualBitForBit) {
-    expectSamePaths(1);
+    for (const Layers layers : {Layers::gbuffer, Layers::forward}) expectSamePaths(layers);
 }
 
 TEST(Refraction, BothPathsAreEqualBitForBitWithSamples) {
-    expectSamePaths(4);
-    expectSamePaths(4, MsaaShading::sample);
+    expectSamePaths(Layers::gbuffer, 4);
+    expectSamePaths(Layers::forward, 4, MsaaShading::sample);
 }
 
 // A leaf lit from behind: the fraction w of the light that its layer admits leaves its front in its colour.

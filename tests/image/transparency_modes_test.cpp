@@ -378,10 +378,8 @@ TEST(TransparencyModes, BothPathsAreEqualBitForBit) {
         for (const Transparency mode : allModes) {
             std::vector<Image> made;
             for (const Path path : bothOf) {
-                Settings settings = imageSettings(mode, path);
-                settings.haze = true;
-                settings.haze_density = 2000;
-                settings.lights = "point:200,spot:56";
+                Settings settings =
+                    with(imageSettings(mode, path), "haze on haze-density 2000 lights point:200,spot:56");
                 made.push_back(litWith(loadScene(name), settings, nothing));
             }
             EXPECT_EQ(differingPixels(made[0], made[1]), 0u) << name << " " << nameOf(mode);

@@ -73,7 +73,8 @@ TEST(Transparent, WhatIsOpaqueHidesAllBehindItAndOpacity0Nothing) {
 }
 
 TEST(Transparent, BothPathsAreEqualBitForBit) {
-    for (const char* name : {"builtin:glass", "builtin:crossed"}) {
+    for (const auto& [name, shadows] :
+         {std::pair{"builtin:glass", Shadows::pcf}, {"builtin:crossed", Shadows::evsm}}) {
         Renderer& renderer = uploaded(name).renderer;
         std::optional<Image> first;
         for (const Assignment assign : {Assignment::every, Assignment::tiled, Assignment::clustered}) {
@@ -82,25 +83,17 @@ TEST(Transparent, BothPathsAreEqualBitForBit) {
             settings.lights = "point:200,spot:56";
             settings.light_cutoff = 0;
             const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
-            EXPECT_EQ(
-                differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u)
+            EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::lit), 0u)
                 << name << " " << nameOf(assign);
             if (!first) first = frames[0].channels.at(Channel::lit);
             EXPECT_EQ(differingPixels(*first, frames[0].channels.at(Channel::lit)), 0u)
                 << name << " " << nameOf(assign) << " leaves out a light";
         }
-        for (const Shadows shadows : {Shadows::pcf, Shadows::evsm}) {
-            Settings settings = blendedImage();
-            settings.shadows = shadows;
-            settings.haze = true;
-            settings.haze_density = 2000;
-            settings.transparency = Transparency::unsorted;
-            settings.ambient = {0.2f, 0.3f, 0.4f};
-            const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
-            EXPECT_EQ(
-                differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u)
-                << name << " " << nameOf(shadows);
-        }
+        Settings settings = with(blendedImage(), "haze on haze-density 2000 transparency unsorted");
+        settings.ambient = {0.2f, 0.3f, 0.4f};
+        settings.shadows = shadows;
+        const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
+        EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::lit), 0u) << name << " " << nameOf(shadows);
     }
 }
 
@@ -232,20 +225,18 @@ TEST(Transparent, TrianglesAreTheReferencesOrderWhereThoseOfDrawsAreNot) {
     settings.transparency = Transparency::triangles;
     EXPECT_EQ(failedChannels(scene, renderer, settings), std::vector<std::string>{});
     const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
-    EXPECT_EQ(differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u);
+    EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::lit), 0u);
     // Another order of the same draws: their light lists stay the same.
     Settings every = settings, object = settings;
     every.assign = Assignment::every;
     object.assign = Assignment::per_object;
     for (const Path path : drawn_paths)
-        EXPECT_EQ(
-            differingPixels(drawnBy(path, renderer, every, {Channel::lit}).channels.at(Channel::lit),
-                            drawnBy(path, renderer, settings, {Channel::lit}).channels.at(Channel::lit)),
-            0u)
+        EXPECT_EQ(differingPixels(drawnBy(path, renderer, every, {Channel::lit}),
+                                  drawnBy(path, renderer, settings, {Channel::lit}), Channel::lit),
+                  0u)
             << nameOf(path);
-    EXPECT_EQ(differingPixels(
-                  drawnBy(Path::forward_plus, renderer, every, {Channel::lit}).channels.at(Channel::lit),
-                  drawnBy(Path::forward_plus, renderer, object, {Channel::lit}).channels.at(Channel::lit)),
+    EXPECT_EQ(differingPixels(drawnBy(Path::forward_plus, renderer, every, {Channel::lit}),
+                              drawnBy(Path::forward_plus, renderer, object, {Channel::lit}), Channel::lit),
               0u);
 }
 
@@ -289,12 +280,8 @@ class BlendedScene : public testing::TestWithParam<std::string> {};
 // cast no shadow.
 TEST_P(BlendedScene, OfOpacity1IsTheOpaqueOne) {
     const Scene scene = loadScene(GetParam());
-    Settings settings = blendedImage();
-    settings.path = Path::forward_plus;
-    settings.shadows = Shadows::off;
-    settings.transparency = Transparency::list;
-    settings.transparency_layers = 32;
-    settings.haze = true;
+    Settings settings = with(
+        blendedImage(), "path forward_plus shadows off transparency list transparency-layers 32 haze on");
     const Image opaque = drawnBlended(Path::forward_plus, allOf(AlphaMode::opaque, 1, scene), settings)
                              .channels.at(Channel::lit);
     EXPECT_GT(*std::ranges::max_element(opaque.data), 0.0f);
@@ -318,9 +305,7 @@ TEST(Transparent, WhereEverythingBlendsBothPathsAreAlikeInEveryMode) {
             Settings settings = blendedImage();
             settings.transparency = transparency;
             const std::vector<Frame> frames = bothPaths(renderer, settings, {Channel::lit});
-            EXPECT_EQ(
-                differingPixels(frames[0].channels.at(Channel::lit), frames[1].channels.at(Channel::lit)), 0u)
-                << each << " " << name;
+            EXPECT_EQ(differingPixels(frames[0], frames[1], Channel::lit), 0u) << each << " " << name;
             EXPECT_EQ(frames[0].counters.nonfinite_pixels, 0u) << each << " " << name;
         }
     }
@@ -331,7 +316,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, BlendedScene,
                                          "builtin:lightmaps", "builtin:sixteen_bits", "builtin:dielectrics",
                                          "builtin:emission", "builtin:mirrored", "builtin:ortho",
                                          "builtin:areas", "builtin:deep"),
-                         [](const auto& scene) { return testName(scene.param.substr(8)); });
+                         sceneName);
 
 // A blended surface is attenuated by the air in front of it, not by that up to the surface behind. Level
 // rays without sun or other light in the air: e^(-extinction distance) of each surface is the whole

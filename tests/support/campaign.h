@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <string_view>
+#include <vector>
 
 namespace diptych {
 
@@ -34,5 +35,15 @@ public:
 private:
     int stride_, second_;
 };
+
+// The rows of a table to run, as a table.
+template <class Row>
+std::vector<Row> slice(const std::vector<Row>& table, int stride) {
+    std::vector<Row> rows;
+    const Rows which(stride);
+    for (int row = 0; row < static_cast<int>(table.size()); row = which.after(row))
+        rows.push_back(table[static_cast<std::size_t>(row)]);
+    return rows;
+}
 
 }  // namespace diptych
