@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Small images of every format that the readers support.
 #include "tests/fuzz/seeds.h"
+#include "tests/support/png_builder.h"
 #include "tests/support/webp_builder.h"
 
 #include <cstdio>  // jpeglib.h asks for its FILE
 
 #include <jpeglib.h>
-#include <png.h>
 #include <tiffio.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -21,38 +22,20 @@ namespace {
 
 constexpr int jpegSide = 20;
 
-void appendTo(png_structp png, png_bytep bytes, std::size_t size) {
-    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
-}
-
-// libpng ends the program on an error: a bug in this file.
-std::string pngOf(int color, int depth, int interlace) {
-    std::string bytes;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-    png_infop info = png_create_info_struct(png);
-    png_set_write_fn(png, &bytes, appendTo, nullptr);
-    png_set_IHDR(png, info, 9, 9, depth, color, interlace, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
-    const png_color palette[] = {{255, 0, 0}, {0, 255, 0}};
-    const png_byte alpha[] = {255, 128};
-    if (color == PNG_COLOR_TYPE_PALETTE) {
-        png_set_PLTE(png, info, palette, 2);
-        png_set_tRNS(png, info, alpha, 2, nullptr);
-    }
-    if (depth == 16) png_set_gAMA(png, info, 0.5);
-    png_write_info(png, info);
-    const int passes = png_set_interlace_handling(png);
-    std::vector<png_byte> row(9 * 8);
-    for (int pass = 0; pass < passes; ++pass)
-        for (std::size_t y = 0; y < 9; ++y) {
-            for (std::size_t i = 0; i < row.size(); ++i)
-                row[i] =
-                    static_cast<png_byte>(color == PNG_COLOR_TYPE_PALETTE ? (depth == 8 ? i % 2 : 0) : i * y);
-            png_write_row(png, row.data());
+std::string seedPng(int color, int depth, bool interlaced) {
+    const bool indexed = color == PNG_COLOR_TYPE_PALETTE;
+    MadePng made{color, depth, 9, {}, interlaced};
+    for (std::size_t y = 0; y < 9; ++y)
+        for (std::size_t i = 0; i < 9 * 8; ++i) {
+            if (i == 0) made.rows.emplace_back();
+            made.rows[y].push_back(static_cast<std::uint8_t>(indexed ? (depth == 8 ? i % 2 : 0) : i * y));
         }
-    png_write_end(png, info);
-    png_destroy_write_struct(&png, &info);
-    return bytes;
+    if (indexed) {
+        made.palette = {{255, 0, 0}, {0, 255, 0}};
+        made.palette_alpha = {255, 128};
+    }
+    if (depth == 16) made.gamma = 0.5;
+    return pngOf(made);
 }
 
 void writePngSeeds(const fs::path& out) {
@@ -61,11 +44,11 @@ void writePngSeeds(const fs::path& out) {
         for (const int depth : {1, 8, 16}) {
             const bool few = color == PNG_COLOR_TYPE_GRAY || color == PNG_COLOR_TYPE_PALETTE;
             if ((depth == 1 && !few) || (depth == 16 && color == PNG_COLOR_TYPE_PALETTE)) continue;
-            for (const int interlace : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
+            for (const bool interlaced : {false, true}) {
                 const std::string name = std::to_string(color) + "-" + std::to_string(depth) +
-                                         (interlace ? "-interlaced.png" : ".png");
+                                         (interlaced ? "-interlaced.png" : ".png");
                 for (const char* target : {"png", "texture"})
-                    writeSeed(out, target, name, pngOf(color, depth, interlace));
+                    writeSeed(out, target, name, seedPng(color, depth, interlaced));
             }
         }
 }

@@ -53,19 +53,25 @@ View viewAlongZ(bool orthographic = false) {
     return view;
 }
 const glm::dvec3 eye(5, 6, 7);
+glm::dmat4 at(double depth) {
+    return placed(eye + glm::dvec3(0, 0, -depth));
+}
 
-// Draw list of instances with these transforms, of the opaque square or of the given primitives.
-DrawList listOf(const std::vector<glm::dmat4>& transforms, const View& view,
-                const std::vector<int>& primitives = {}) {
-    const Scene scene = squares();
+DrawList listOf(const Scene& scene, const Pose& pose, const View& view) {
     Uploader uploader(probeDevice());
     const Geometry geometry(probeDevice(), uploader, scene);
     const Materials materials(probeDevice(), uploader, scene);
     uploader.flush();
+    return makeDrawList(pose, geometry, materials, view);
+}
+
+// Draw list of instances with these transforms, of the opaque square or of the given primitives.
+DrawList listOf(const std::vector<glm::dmat4>& transforms, const View& view,
+                const std::vector<int>& primitives = {}) {
     Pose pose;
     for (std::size_t i = 0; i < transforms.size(); ++i)
         pose.instances.push_back({0, primitives.empty() ? 0 : primitives[i], 0, 0, transforms[i]});
-    return makeDrawList(pose, geometry, materials, view);
+    return listOf(squares(), pose, view);
 }
 
 // Squares of 1 cm at a depth of 10 m, each a millimetre inside or outside an edge of the image; and the
@@ -105,7 +111,6 @@ TEST(DrawList, WhatCrossesAPlaneIsDrawn) {
 }
 
 TEST(DrawList, OpaqueDrawsComeFirstAndBothFromNearToFar) {
-    const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
     const DrawList list = listOf({at(40), at(2), at(3), at(90), at(20)}, viewAlongZ(), {0, 1, 0, 1, 0});
     std::vector<std::uint32_t> order;
     for (const DrawItem& item : list.items) order.push_back(item.instance);
@@ -121,14 +126,9 @@ TEST(DrawList, OpaqueDrawsComeFirstAndBothFromNearToFar) {
 TEST(DrawList, TransmissiveDrawsGoFromNearToFar) {
     Scene scene = squares();
     scene.materials[0].transmission = 1;
-    Uploader uploader(probeDevice());
-    const Geometry geometry(probeDevice(), uploader, scene);
-    const Materials materials(probeDevice(), uploader, scene);
-    uploader.flush();
     Pose pose;
-    for (const double depth : {40, 2, 90, 2, 20})
-        pose.instances.push_back({.world_from_object = placed(eye + glm::dvec3(0, 0, -depth))});
-    const DrawList list = makeDrawList(pose, geometry, materials, viewAlongZ());
+    for (const double depth : {40, 2, 90, 2, 20}) pose.instances.push_back({.world_from_object = at(depth)});
+    const DrawList list = listOf(scene, pose, viewAlongZ());
     std::vector<std::uint32_t> order;
     for (const DrawItem& item : list.transmissive()) order.push_back(item.instance);
     EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 3, 4, 0, 2}));
@@ -138,10 +138,6 @@ TEST(DrawList, TransmissiveDrawsGoFromNearToFar) {
 TEST(DrawList, AThicknessHasTheScaleOfItsNode) {
     Scene scene = squares();
     scene.materials[0].transmission = 1;
-    Uploader uploader(probeDevice());
-    const Geometry geometry(probeDevice(), uploader, scene);
-    const Materials materials(probeDevice(), uploader, scene);
-    uploader.flush();
     const glm::dmat4 world = placed({5, 6, -3}, {2, -4, 1});
     Pose pose;
     pose.boxes.push_back({.origin = {5, 6, -3}, .min = glm::dvec3(-1), .max = glm::dvec3(1)});
@@ -149,7 +145,7 @@ TEST(DrawList, AThicknessHasTheScaleOfItsNode) {
         pose.instances.push_back(
             {.world_from_object = world, .weights = posed ? 0 : -1, .box = posed ? 0 : -1});
     pose.instances.push_back({.world_from_object = world, .skin = 0, .box = 0});
-    const DrawList list = makeDrawList(pose, geometry, materials, viewAlongZ());
+    const DrawList list = listOf(scene, pose, viewAlongZ());
     ASSERT_EQ(list.transmissive().size(), 3u);
     for (const DrawItem& item : list.transmissive())
         EXPECT_NEAR(item.scale, item.instance == 2 ? 1 : 2, 1e-6) << item.instance;
@@ -235,7 +231,6 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> runsOf(const DrawList& list
 // depth.
 TEST(DrawList, TrianglesOfAllBlendedDrawsAreSortedTogether) {
     const BlendedSquares squares({0, -4, -2});
-    const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
     const DrawList list = squares.listOf({{0, at(3)}, {1, at(10)}, {0, at(30)}, {1, at(11)}}, viewAlongZ());
     ASSERT_EQ(list.solids().size(), 2u);
     ASSERT_EQ(list.blended().size(), 2u) << "one item a draw, whatever the number of its runs";
@@ -249,7 +244,6 @@ TEST(DrawList, TrianglesOfAllBlendedDrawsAreSortedTogether) {
 
 TEST(DrawList, TrianglesThatFollowOneAnotherAreOneRunAndEqualOnesAreAsInTheScene) {
     const BlendedSquares squares({0, -4, -2});
-    const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
     EXPECT_EQ(runsOf(squares.listOf({{1, at(10)}, {1, at(20)}}, viewAlongZ())),
               (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1, 18}, {0, 18}}));
     // Primitive 2 coincides with the last square of primitive 1.
@@ -261,7 +255,6 @@ TEST(DrawList, TrianglesThatFollowOneAnotherAreOneRunAndEqualOnesAreAsInTheScene
 
 TEST(DrawList, NothingIsSortedOfWhatIsCulledOpaqueOrDrawnInAnotherOrder) {
     const BlendedSquares squares({0, -4, -2});
-    const auto at = [](double depth) { return placed(eye + glm::dvec3(0, 0, -depth)); };
     const DrawList behind = squares.listOf({{1, at(-10)}, {0, at(10)}, {2, at(10)}}, viewAlongZ());
     EXPECT_EQ(behind.culled, 1u);
     EXPECT_EQ(behind.sorted_indices.size(), 6u);

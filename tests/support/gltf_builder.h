@@ -13,8 +13,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace diptych {
@@ -100,6 +102,17 @@ struct GltfFile {
         return faultOf([&] { load(); });
     }
 };
+
+// Changes to a file's JSON; `pointer` as in RFC 6901.
+using GltfChange = std::function<void(GltfFile&)>;
+inline GltfChange sets(const std::string& pointer, nlohmann::json value) {
+    return [pointer, value = std::move(value)](GltfFile& f) {
+        f.json[nlohmann::json::json_pointer(pointer)] = value;
+    };
+}
+inline GltfChange erases(const std::string& pointer, const std::string& key) {
+    return [=](GltfFile& f) { f.json.at(nlohmann::json::json_pointer(pointer)).erase(key); };
+}
 
 // The error of loading these bytes as a file; empty if it loads.
 inline std::string loadBytes(const std::string& bytes, const char* name = "scene.glb") {

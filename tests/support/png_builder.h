@@ -24,6 +24,7 @@ struct MadePng {
     bool profile = false;
     std::vector<std::pair<std::string, std::string>> chunks{};  // before the pixels
     std::string exif{};                                         // after the pixels
+    std::vector<png_uint_16> transparent_color{};               // red, green, blue
 };
 
 // An error terminates the program (libpng's default): it would be a bug in the test.
@@ -47,7 +48,13 @@ inline std::string pngOf(const MadePng& made) {
                      nullptr);
     png_color_16 transparent{};
     transparent.gray = static_cast<png_uint_16>(made.transparent_gray);
-    if (made.transparent_gray >= 0) png_set_tRNS(png, info, nullptr, 0, &transparent);
+    if (!made.transparent_color.empty()) {
+        transparent.red = made.transparent_color[0];
+        transparent.green = made.transparent_color[1];
+        transparent.blue = made.transparent_color[2];
+    }
+    if (made.transparent_gray >= 0 || !made.transparent_color.empty())
+        png_set_tRNS(png, info, nullptr, 0, &transparent);
     png_write_info(png, info);
     // Written by hand: libpng writes neither a gamma that contradicts sRGB nor an invalid profile.
     const auto chunk = [&](const char* name, const std::vector<png_byte>& data) {

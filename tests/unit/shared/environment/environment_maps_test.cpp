@@ -58,7 +58,7 @@ std::array<double, 9> basis(const glm::dvec3& d) {
 
 // The image's sides divide the grid's, so no kink of the interpolation is inside a grid cell.
 TEST(EnvironmentMaps, HarmonicsAreTheProjectionInDouble) {
-    for (const glm::ivec2 size : {glm::ivec2(1, 1), {3, 2}, {10, 6}}) {
+    for (const glm::ivec2 size : {glm::ivec2(3, 2), {10, 6}}) {
         const Environment sky = skyOf(size.x, size.y, 3);
         const reference::EnvironmentLight light(sky, 1);
         Harmonics expected{};
@@ -280,16 +280,16 @@ double meanOfMap(const NodeMap& map) {
 
 // Near the poles a pixel is far narrower than a map's texels; between columns it lies between nodes.
 TEST(EnvironmentMaps, ASunKeepsItsLightWhereverItStands) {
-    for (const int row : {0, 1, 6, 20, 40, 64, 101, 127})
-        for (const int column : {0, 17}) {
-            Environment sky = constantSky(0.2f, 256, 128);
-            sky.radiance.at(column, row, 0) = 6e4f;
-            const EnvironmentMaps maps = makeEnvironmentMaps(sky, {{1, 0}, true});
-            const double expected = maps.harmonics[0].x / std::sqrt(4 * pi);
-            EXPECT_NEAR(meanOfMap(maps.diffuse) / expected, 1, 1e-3) << row << " " << column;
-            // Sums over 129 x 129 nodes.
-            EXPECT_NEAR(meanOfMap(maps.levels.front()) / expected, 1, 3e-3) << row << " " << column;
-        }
+    for (const auto& [row, column] :
+         {std::pair{0, 17}, {1, 0}, {6, 17}, {20, 0}, {40, 0}, {64, 17}, {101, 0}, {127, 17}}) {
+        Environment sky = constantSky(0.2f, 256, 128);
+        sky.radiance.at(column, row, 0) = 6e4f;
+        const EnvironmentMaps maps = makeEnvironmentMaps(sky, {{1, 0}, true});
+        const double expected = maps.harmonics[0].x / std::sqrt(4 * pi);
+        EXPECT_NEAR(meanOfMap(maps.diffuse) / expected, 1, 1e-3) << row << " " << column;
+        // Sums over 129 x 129 nodes.
+        EXPECT_NEAR(meanOfMap(maps.levels.front()) / expected, 1, 3e-3) << row << " " << column;
+    }
 }
 
 // For images of any size, all maps have the image's mean and finite values, even with one sample.

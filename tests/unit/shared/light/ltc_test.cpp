@@ -41,13 +41,19 @@ std::array<Fitted, 2> bothLobes(std::size_t i, std::size_t j) {
 template <class F>
 double hemisphere(const F& f) {
     constexpr int rings = 800, sectors = 800;
-    double sum = 0;
-    for (int i = 0; i < rings; ++i)
+    static const auto around = [] {
+        std::array<glm::dvec2, sectors> all{};
         for (int j = 0; j < sectors; ++j) {
-            const double z = (i + 0.5) / rings, s = std::sqrt(1 - z * z),
-                         phi = 2 * std::numbers::pi * (j + 0.5) / sectors;
-            sum += f(glm::dvec3(s * std::cos(phi), s * std::sin(phi), z));
+            const double phi = 2 * std::numbers::pi * (j + 0.5) / sectors;
+            all[static_cast<std::size_t>(j)] = {std::cos(phi), std::sin(phi)};
         }
+        return all;
+    }();
+    double sum = 0;
+    for (int i = 0; i < rings; ++i) {
+        const double z = (i + 0.5) / rings, s = std::sqrt(1 - z * z);
+        for (const glm::dvec2& at : around) sum += f(glm::dvec3(s * at, z));
+    }
     return sum * 2 * std::numbers::pi / (rings * sectors);
 }
 

@@ -154,32 +154,24 @@ TEST(TexelPlan, SlotsThatReadAlikeShareASample) {
     EXPECT_EQ(plannedTexel(gpu::SLOT_occlusion, rough, scene), gpu::TEXEL_OWN);
 }
 
-// A sheen's roughness is the alpha of its colour.
-TEST(TexelPlan, ASheensRoughnessSharesTheSampleOfItsColour) {
+// A sheen's roughness and the weight of diffuse transmission are the alpha of their colour.
+TEST(TexelPlan, AnAlphaSharesTheSampleOfItsColour) {
     const Scene scene = fourImages();
     Material m;
     m.sheen_color = {1, 1, 1};
-    m.sheen_color_texture.texture = m.sheen_roughness_texture.texture = 0;
-    EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_color, m, scene), gpu::TEXEL_OWN);
-    EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_roughness, m, scene), gpu::TEXEL_SHARED);
-    Material other = m;
-    other.sheen_roughness_texture.texture = 1;
-    EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_roughness, other, scene), gpu::TEXEL_OWN) << "another image";
-    other = m;
-    other.sheen_roughness_texture.texcoord = 1;
-    EXPECT_EQ(plannedTexel(gpu::SLOT_sheen_roughness, other, scene), gpu::TEXEL_OWN) << "another UV set";
-}
-
-// The weight of diffuse transmission is the alpha of its colour.
-TEST(TexelPlan, DiffuseTransmissionSharesTheSampleOfItsColour) {
-    const Scene scene = fourImages();
-    Material m;
     m.diffuse_transmission = 1;
-    m.diffuse_transmission_color_texture.texture = m.diffuse_transmission_texture.texture = 0;
-    EXPECT_EQ(plannedTexel(gpu::SLOT_diffuse_transmission_color, m, scene), gpu::TEXEL_OWN);
-    EXPECT_EQ(plannedTexel(gpu::SLOT_diffuse_transmission, m, scene), gpu::TEXEL_SHARED);
-    m.diffuse_transmission_texture.texcoord = 1;
-    EXPECT_EQ(plannedTexel(gpu::SLOT_diffuse_transmission, m, scene), gpu::TEXEL_OWN) << "another UV set";
+    for (const auto& [color, alpha] :
+         {std::pair{gpu::SLOT_sheen_color, gpu::SLOT_sheen_roughness},
+          {gpu::SLOT_diffuse_transmission_color, gpu::SLOT_diffuse_transmission}}) {
+        TextureSlot& own = m.*materialSlots[alpha].texture;
+        (m.*materialSlots[color].texture).texture = own.texture = 0;
+        EXPECT_EQ(plannedTexel(color, m, scene), gpu::TEXEL_OWN);
+        EXPECT_EQ(plannedTexel(alpha, m, scene), gpu::TEXEL_SHARED);
+        own.texture = 1;
+        EXPECT_EQ(plannedTexel(alpha, m, scene), gpu::TEXEL_OWN) << "another image";
+        own = {0, 1};
+        EXPECT_EQ(plannedTexel(alpha, m, scene), gpu::TEXEL_OWN) << "another UV set";
+    }
 }
 
 // A thickness texture needs both transmission and a thickness; without transmission nothing reads either.

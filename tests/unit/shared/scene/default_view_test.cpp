@@ -2,7 +2,6 @@
 #include "shared/scene/default_view.h"
 
 #include "shared/scene/lights/rig.h"
-#include "shared/scene/load.h"
 #include "shared/scene/scene_view.h"
 #include "shared/scene/visible_surface.h"
 
@@ -11,7 +10,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -308,14 +306,4 @@ TEST(DefaultView, OfHostileScenesIsFinite) {
         EXPECT_NEAR(glm::length(made.backward()), 1, 1e-9) << name;
         EXPECT_GT(made.camera.near, 0) << name;
     }
-}
-
-// A real scene, in addition to the built-in ones above.
-TEST(DefaultView, OfSponzaIsFromInside) {
-    const std::filesystem::path file =
-        std::filesystem::path(DIPTYCH_SOURCE_DIR) / "../shared/assets/scenes/sponza/Sponza.gltf";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
-    const DefaultView view = chooseDefaultView(loadScene(file.string(), [](double, const char*) {}));
-    EXPECT_EQ(view.viewpoint, Place::inside);
-    EXPECT_GT(view.covered, 0.95);
 }

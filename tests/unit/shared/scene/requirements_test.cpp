@@ -83,28 +83,15 @@ TEST(Requirements, EachFeatureAsksForItself) {
         {"blend", [](Material& m) { m.alpha_mode = AlphaMode::blend; }, &Requirements::alpha_blend},
         {"transmission", [](Material& m) { m.transmission = 0.5f; }, &Requirements::rough_glass},
         {"two sides", [](Material& m) { m.double_sided = true; }, &Requirements::double_sided},
-        {"uv set",
-         [](Material& m) {
-             m.base_color_texture = {0, 1};
-         },
+        {"uv set", [](Material& m) { m.base_color_texture.texture = 0, m.base_color_texture.texcoord = 1; },
          &Requirements::second_texcoord},
-        {"transform",
-         [](Material& m) {
-             m.base_color_texture = {0, 0, {2, 0, 0}};
-         },
+        {"transform", [](Material& m) { m.base_color_texture.texture = 0, m.base_color_texture.u.x = 2; },
          &Requirements::texture_transform},
         {"occlusion", [](Material& m) { m.occlusion_texture.texture = 0; }, &Requirements::occlusion},
-        {"emission",
-         [](Material& m) {
-             m.emissive = {0, 0, 2};
-         },
-         &Requirements::emission},
+        {"emission", [](Material& m) { m.emissive.b = 2; }, &Requirements::emission},
         {"ior", [](Material& m) { m.ior = 1.3f; }, &Requirements::dielectric_specular},
         {"specular", [](Material& m) { m.specular = 0.5f; }, &Requirements::dielectric_specular},
-        {"specular colour",
-         [](Material& m) {
-             m.specular_color = {1, 0.5, 1};
-         },
+        {"specular colour", [](Material& m) { m.specular_color.g = 0.5f; },
          &Requirements::dielectric_specular},
     };
     for (const Case& c : cases) {

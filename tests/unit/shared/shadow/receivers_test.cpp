@@ -146,7 +146,7 @@ void expectDrawn(const Case& test) {
     for (const CascadeArea& area : test.cascades.areas) {
         const ReceiverMask::Texels all = test.mask(area, everything).read();
         const bool first = &area == &test.cascades.areas.front();
-        for (int i = 0; i < 400; ++i) {
+        for (int i = 0; i < 180; ++i) {
             const double x = i % 4 == 0 ? std::copysign(1, part(random)) : part(random);
             const double y = i % 4 == 1 ? std::copysign(1, part(random)) : part(random);
             const double fraction = i % 3 == 0 ? 1 : std::abs(part(random));

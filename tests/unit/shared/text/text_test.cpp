@@ -4,6 +4,7 @@
 #include "shared/text/indexed_names.h"
 #include "shared/text/json_shape.h"
 #include "shared/text/one_line.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -107,12 +108,8 @@ TEST(MessageLine, OfALongOneBeginningAndEndStay) {
 
 TEST(LineBreaks, InANameAreRefused) {
     EXPECT_NO_THROW(refuseLineBreak("a b\x1b.gltf"));
-    try {
-        refuseLineBreak("a\nb.gltf");
-        FAIL() << "nothing was thrown";
-    } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(), "a?b.gltf: has a line break in its name; rename it");
-    }
+    EXPECT_EQ(faultOf([] { refuseLineBreak("a\nb.gltf"); }),
+              "a?b.gltf: has a line break in its name; rename it");
 }
 
 TEST(JsonShape, DepthIsWhatIsOpenAtOnce) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every built-in scene has the numbers that kept baselines and documented measurements were made of.
-#include "shared/scene/builtin/builtin.h"
 #include "shared/scene/model/material_slots.h"
+#include "tests/unit/shared/scene/builtin/builtin_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -106,7 +106,7 @@ std::uint32_t fingerprint(const Scene& scene) {
     return f.hash;
 }
 
-TEST(BuiltinNumbers, AreThoseThatBaselinesWereMadeOf) {
+TEST(Builtin, NumbersAreThoseThatBaselinesWereMadeOf) {
     const std::map<std::string, std::uint32_t> known{
         {"gallery", 3476659538u},       {"spheres", 2977517524u},       {"furnace", 518684939u},
         {"normals", 2902298630u},       {"emission", 681557638u},       {"dark_albedo", 309866446u},
@@ -123,7 +123,7 @@ TEST(BuiltinNumbers, AreThoseThatBaselinesWereMadeOf) {
         {"array", 829286550u},          {"covered", 690928902u}};
     for (const BuiltinName& builtin : builtinNames()) {
         const auto found = known.find(builtin.name);
-        EXPECT_EQ(fingerprint(makeBuiltin(builtin.name)), found == known.end() ? 0 : found->second)
+        EXPECT_EQ(fingerprint(builtinScene(builtin.name)), found == known.end() ? 0 : found->second)
             << "builtin:" << builtin.name
             << " is new or has changed: its baselines are worthless, and figures in the documentation may be "
                "wrong";

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "shared/scene/builtin/builtin.h"
-
 #include "shared/scene/builtin/shapes.h"
 #include "shared/scene/model/material_slots.h"
 #include "shared/scene/motion/pose.h"
 #include "shared/scene/view.h"
 #include "tests/support/errors.h"
+#include "tests/unit/shared/scene/builtin/builtin_scenes.h"
 
 #include <gtest/gtest.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -88,7 +87,7 @@ void expectSlot(const Scene& scene, const TextureSlot& slot, const std::string& 
 
 TEST(Builtin, EveryPartOfEverySceneIsWhole) {
     for (const BuiltinName& builtin : builtinNames()) {
-        const Scene scene = makeBuiltin(builtin.name);
+        const Scene& scene = builtinScene(builtin.name);
         const std::string& what = builtin.name;
         EXPECT_EQ(scene.name, "builtin:" + what);
         EXPECT_FALSE(builtin.shows.empty());
@@ -217,7 +216,7 @@ TEST(Builtin, SpheresHasItsPublishedNumbers) {
 }
 
 TEST(Builtin, TheGalleryHoldsWhatANewcomerShouldSee) {
-    const Scene scene = makeBuiltin("gallery");
+    const Scene& scene = builtinScene("gallery");
     EXPECT_LT(triangles(scene), 150000u);
     EXPECT_GT(triangles(scene), 60000u);
     bool mask = false, emissive = false, dielectric = false, colors = false, normals = false,
@@ -242,7 +241,7 @@ TEST(Builtin, TheGalleryHoldsWhatANewcomerShouldSee) {
 
 // Each layer beside none, all at once, and every one of their textures.
 TEST(Builtin, LayersHoldEveryLayerAndTexture) {
-    const Scene scene = makeBuiltin("layers");
+    const Scene& scene = builtinScene("layers");
     EXPECT_LT(triangles(scene), 60000u);
     std::set<std::uint32_t> layers;
     std::set<std::size_t> slots;
@@ -266,7 +265,7 @@ TEST(Builtin, LayersHoldEveryLayerAndTexture) {
 
 // Whatever the image's shape, no ball is cut off.
 TEST(Builtin, LayersAreWhollyInTheImage) {
-    const Scene scene = makeBuiltin("layers");
+    const Scene& scene = builtinScene("layers");
     const Pose pose = poseAt(scene, 0);
     for (const auto& [width, height] : {std::pair{1600, 900}, {900, 900}, {2100, 900}, {450, 900}}) {
         const View view = makeView(scene, pose, "", width, height);
@@ -283,7 +282,7 @@ TEST(Builtin, LayersAreWhollyInTheImage) {
 // Under constant radiance 1, a white Lambertian plane has irradiance pi in any orientation. 64 suns sample
 // the cosine at 64 points; the error falls as N^-3/4 and is below 3 % here.
 TEST(Builtin, TheFurnaceIsEvenlyLit) {
-    const Scene scene = makeBuiltin("furnace");
+    const Scene& scene = builtinScene("furnace");
     const Primitive directions = sphere(1, 24, 12);
     for (const glm::vec3& n : directions.normals) {
         double irradiance = 0;

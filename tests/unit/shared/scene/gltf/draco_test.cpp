@@ -180,7 +180,7 @@ TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
     };
     const auto byte = [](std::size_t at, char value) { return [=](GltfFile& f) { f.data[at] = value; }; };
     const Fault faults[] = {
-        {"mode 0 is not triangles or a triangle strip", [](GltfFile& f) { f.primitive()["mode"] = 0; }},
+        {"mode 0 is not triangles or a triangle strip", sets("/meshes/0/primitives/0/mode", 0)},
         {"NORMAL_9: the primitive has no such attribute",
          [](GltfFile& f) { extensionOf(f)["attributes"]["NORMAL_9"] = 3; }},
         {"NORMAL: 9 vertices, but COLOR_0 has 8", count(3, 8)},
@@ -204,7 +204,7 @@ TEST(GltfDraco, WhatIsWrongIsSaidInOneLine) {
          [&](GltfFile& f) {
              extensionOf(f)["bufferView"] = viewOf(f, {points.data(), points.size()});
          }},
-        {"its stream is cut short", [](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = 12; }},
+        {"its stream is cut short", sets("/bufferViews/0/byteLength", 12)},
         {"its stream is damaged: Failed to decode point attributes",
          [](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = f.data.size() - 9; }},
     };
@@ -257,7 +257,7 @@ TEST(GltfDraco, DamagedStreamsAreSceneOrLine) {
             GltfFile f = compressed(encoded(4, {method, 3, bits, bits != 0}));
             const std::string binary = f.binary();
             const std::size_t begin = binary.size() - f.data.size();
-            for (int i = 0; i < 400; ++i) {
+            for (int i = 0; i < 150; ++i) {
                 std::string other = binary;
                 for (auto flips = 1 + random() % 3; flips > 0; --flips) {
                     char& byte = other[begin + random() % f.data.size()];
@@ -265,7 +265,7 @@ TEST(GltfDraco, DamagedStreamsAreSceneOrLine) {
                 }
                 ++(lineOfDamage(other).empty() ? scenes : lines);
             }
-            for (std::size_t length = 1; length < f.data.size(); ++length) {  // truncated at any length
+            for (std::size_t length = 1; length < f.data.size(); length += 3) {  // truncated
                 f.json["bufferViews"][0]["byteLength"] = length;
                 dracoLine(f);
             }

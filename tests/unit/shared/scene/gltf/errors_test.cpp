@@ -42,35 +42,21 @@ Json deep(int levels) {
 
 TEST(GltfErrors, Schema) {
     expectLines({
-        {"accessor 0: count is \"3\", not a whole number",
-         [](GltfFile& f) { f.json["accessors"][0]["count"] = "3"; }},
-        {"accessor 0: count is 2.5, not a whole number",
-         [](GltfFile& f) { f.json["accessors"][0]["count"] = 2.5; }},
-        {"accessor 0: byteOffset is -4, not at least 0",
-         [](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = -4; }},
+        {"accessor 0: count is \"3\", not a whole number", sets("/accessors/0/count", "3")},
+        {"accessor 0: count is 2.5, not a whole number", sets("/accessors/0/count", 2.5)},
+        {"accessor 0: byteOffset is -4, not at least 0", sets("/accessors/0/byteOffset", -4)},
         {"accessor 0: type is \"VEC5\", not one of SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4",
-         [](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC5"; }},
-        {"accessor 0: bufferView 7, but the file has 1",
-         [](GltfFile& f) { f.json["accessors"][0]["bufferView"] = 7; }},
-        {"bufferView 0: byteStride 2 is not from 4 to 252",
-         [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 2; }},
-        {"bufferView 0: has no buffer", [](GltfFile& f) { f.json["bufferViews"][0].erase("buffer"); }},
-        {"node 0: rotation has 3 numbers, not 4",
-         [](GltfFile& f) {
-             f.json["nodes"][0]["rotation"] = {0, 0, 1};
-         }},
-        {"node 0: scale[1] is null, not a number",
-         [](GltfFile& f) {
-             f.json["nodes"][0]["scale"] = {1, nullptr, 1};
-         }},
+         sets("/accessors/0/type", "VEC5")},
+        {"accessor 0: bufferView 7, but the file has 1", sets("/accessors/0/bufferView", 7)},
+        {"bufferView 0: byteStride 2 is not from 4 to 252", sets("/bufferViews/0/byteStride", 2)},
+        {"bufferView 0: has no buffer", erases("/bufferViews/0", "buffer")},
+        {"node 0: rotation has 3 numbers, not 4", sets("/nodes/0/rotation", {0, 0, 1})},
+        {"node 0: scale[1] is null, not a number", sets("/nodes/0/scale", {1, nullptr, 1})},
         {"node 0: translation[2] is 1e+40, not at most 3.4028234663852886e+38",
-         [](GltfFile& f) {
-             f.json["nodes"][0]["translation"] = {0, 0, 1e40};
-         }},
-        {"node 0: children names node -1, but the file has 1",
-         [](GltfFile& f) { f.json["nodes"][0]["children"] = {-1}; }},
+         sets("/nodes/0/translation", {0, 0, 1e40})},
+        {"node 0: children names node -1, but the file has 1", sets("/nodes/0/children", {-1})},
         {"mesh 0, primitive 0: attributes: NORMAL is \"x\", not an index",
-         [](GltfFile& f) { f.primitive()["attributes"]["NORMAL"] = "x"; }},
+         sets("/meshes/0/primitives/0/attributes/NORMAL", "x")},
         {"material 0: normalTexture: index names texture 3, but the file has 0",
          [](GltfFile& f) {
              f.primitive()["material"] = 0;
@@ -82,19 +68,15 @@ TEST(GltfErrors, Schema) {
              f.json["materials"] = {{{"doubleSided", 1}}};
          }},
         {"node 0: KHR_lights_punctual: light 0, but the file has 0",
-         [](GltfFile& f) { f.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0; }},
-        {"accessor 0: componentType 9999 does not exist",
-         [](GltfFile& f) { f.json["accessors"][0]["componentType"] = 9999; }},
+         sets("/nodes/0/extensions/KHR_lights_punctual/light", 0)},
+        {"accessor 0: componentType 9999 does not exist", sets("/accessors/0/componentType", 9999)},
         {"accessor 0: type is \"VEC2 VEC3\", not one of SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4",
-         [](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC2 VEC3"; }},
+         sets("/accessors/0/type", "VEC2 VEC3")},
         {"accessor 0: 4 sparse elements for 3 elements",
-         [](GltfFile& f) {
-             f.json["accessors"][0]["sparse"] = {{"count", 4},
-                                                 {"indices", {{"bufferView", 0}, {"componentType", UBYTE}}},
-                                                 {"values", {{"bufferView", 0}}}};
-         }},
-        {"bufferView 0: byteStride 14 is not a multiple of 4",
-         [](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 14; }},
+         sets("/accessors/0/sparse", {{"count", 4},
+                                      {"indices", {{"bufferView", 0}, {"componentType", UBYTE}}},
+                                      {"values", {{"bufferView", 0}}}})},
+        {"bufferView 0: byteStride 14 is not a multiple of 4", sets("/bufferViews/0/byteStride", 14)},
         {"light 0: is spot but has no spot",
          [](GltfFile& f) {
              f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
@@ -102,11 +84,9 @@ TEST(GltfErrors, Schema) {
          }},
         {"mesh 0, primitive 0: attributes: A?B is not an attribute name",
          [](GltfFile& f) { f.primitive()["attributes"]["A\nB"] = 0; }},
-        {"meshes is an object, not an array", [](GltfFile& f) { f.json["meshes"] = Json::object(); }},
+        {"meshes is an object, not an array", sets("/meshes", Json::object())},
         {"extensionsRequired: KHR_texture_basisu is not supported; export the scene without it",
-         [](GltfFile& f) {
-             f.json["extensionsRequired"] = {"KHR_texture_basisu", "KHR_texture_transform"};
-         }},
+         sets("/extensionsRequired", {"KHR_texture_basisu", "KHR_texture_transform"})},
     });
 }
 
@@ -150,6 +130,7 @@ TEST(GltfErrors, BuffersAndImages) {
 TEST(GltfErrors, Documents) {
     EXPECT_EQ(linesFor(""), "is empty");
     EXPECT_EQ(linesFor("[]"), "its JSON is not an object");
+    EXPECT_EQ(linesFor("null"), "its JSON is not an object");
     EXPECT_EQ(
         linesFor("{\"asset\": 1"),
         "is not JSON: parse error at line 1, column 12: syntax error while parsing object - unexpected end "
@@ -223,4 +204,5 @@ TEST(GltfErrors, ScenesThatAreNoFiles) {
     EXPECT_EQ(outcome((testFolder() / "folder.glb").string()),
               (testFolder() / "folder.glb").string() + ": is a folder");
     EXPECT_EQ(outcome("gone.gltf"), "gone.gltf: no such file");
+    EXPECT_NE(outcome("scene.obj"), "");
 }

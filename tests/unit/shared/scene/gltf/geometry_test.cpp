@@ -25,35 +25,6 @@ TEST(GltfGeometry, TriangleWithoutNormalsIsFlatWithATangentAndADefaultMaterial) 
     EXPECT_TRUE(scene.notes.empty());
 }
 
-TEST(GltfGeometry, EveryIndexType) {
-    for (const int type : {UBYTE, USHORT, UINT}) {
-        GltfFile f = GltfFile::triangle();
-        f.primitive()["indices"] = type == UBYTE    ? f.accessor<std::uint8_t>({2, 0, 1}, type, "SCALAR", 1)
-                                   : type == USHORT ? f.accessor<std::uint16_t>({2, 0, 1}, type, "SCALAR", 1)
-                                                    : f.accessor<std::uint32_t>({2, 0, 1}, type, "SCALAR", 1);
-        const Scene scene = f.load();
-        const Primitive& p = f.only(scene);
-        EXPECT_EQ(p.positions[p.indices[0]], glm::vec3(0, 1, 0)) << type;
-        EXPECT_EQ(p.positions[p.indices[2]], glm::vec3(1, 0, 0)) << type;
-    }
-}
-
-// glTF 2.0, 3.7.2.1: a strip flips every other triangle, a fan goes around vertex 0. All must face +Z.
-TEST(GltfGeometry, StripsAndFansBecomeTriangles) {
-    for (const int mode : {5, 6}) {
-        GltfFile f = GltfFile::triangle();
-        const std::vector<float> strip{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0},
-            fan{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-        f.primitive()["attributes"]["POSITION"] =
-            f.accessor<float>(mode == 5 ? strip : fan, FLOAT, "VEC3", 3);
-        f.primitive()["mode"] = mode;
-        const Scene scene = f.load();
-        const Primitive& p = f.only(scene);
-        ASSERT_EQ(p.indices.size(), 6u);
-        for (const glm::vec3& n : p.normals) EXPECT_EQ(n, glm::vec3(0, 0, 1)) << mode;
-    }
-}
-
 TEST(GltfGeometry, PointsLinesAndEmptyPrimitivesAreLeftOutWithANote) {
     for (const int mode : {0, 1, 2, 3}) {
         GltfFile f = GltfFile::triangle();

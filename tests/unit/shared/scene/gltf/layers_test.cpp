@@ -72,22 +72,6 @@ GltfFile mapped(Json material, int images = 1) {
     return f;
 }
 
-// Keys at 0 s and 1 s, each of one number or three; `property`: from the material on.
-void animate(GltfFile& f, const std::string& property, const std::vector<float>& from,
-             const std::vector<float>& to) {
-    std::vector<float> keys = from;
-    keys.insert(keys.end(), to.begin(), to.end());
-    const int output = f.accessor<float>(keys, FLOAT, from.size() == 1 ? "SCALAR" : "VEC3", from.size());
-    const Json pointer = {{"pointer", "/materials/0/extensions/" + property}};
-    f.json["animations"] = Json::array(
-        {{{"samplers",
-           Json::array({{{"input", f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1)}, {"output", output}}})},
-          {"channels",
-           Json::array({{{"sampler", 0},
-                         {"target",
-                          {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", pointer}}}}}}})}}});
-}
-
 void expectTangents(const std::vector<glm::vec4>& tangents, const glm::vec3& expected, const char* what) {
     ASSERT_FALSE(tangents.empty()) << what;
     for (const glm::vec4& t : tangents) EXPECT_LT(glm::distance(glm::vec3(t), expected), 1e-6f) << what;
@@ -209,8 +193,9 @@ TEST_P(GltfLayer, UnlitMaterialsHaveNone) {
 TEST_P(GltfLayer, AnAnimatedFactorAddsItWhenItRises) {
     const LayerFactor& first = GetParam().factors[0];
     GltfFile f = file(with(first, numbersOf(first, glm::vec3(0))));
-    animate(f, extensionOf(first) + "/" + first.key, std::vector<float>(first.width(), 0),
-            std::vector<float>(first.width(), 1));
+    std::vector<float> values(2 * first.width(), 0);
+    std::fill_n(values.rbegin(), first.width(), 1.0f);
+    animate(f, "extensions/" + extensionOf(first) + "/" + first.key, values);
     const Scene scene = f.load();
     const Pose pose = poseAt(scene, 0.5);
     EXPECT_EQ(requirements(scene, poseAt(scene, 0)).layers, 0u);
@@ -228,8 +213,10 @@ TEST_P(GltfLayer, TransformsOfMissingTexturesAreNotAnimated) {
         Json material = written();
         material["extensions"][extensionOf(t)].erase(t.key);
         GltfFile f = file(material);
-        animate(f, fmt::format("{}/{}/extensions/KHR_texture_transform/rotation", extensionOf(t), t.key), {0},
-                {1});
+        animate(
+            f,
+            fmt::format("extensions/{}/{}/extensions/KHR_texture_transform/rotation", extensionOf(t), t.key),
+            {0, 1});
         const Scene scene = f.load();
         EXPECT_TRUE(scene.animations.empty()) << t.key;
         EXPECT_TRUE(mentions(scene.notes, "the material has no such texture")) << t.key;
@@ -341,9 +328,10 @@ TEST(GltfLayers, EachMapHasTheTangentsOfItsCoordinates) {
     EXPECT_TRUE(mentions(mapped(merged(coat(info(1)), texture(info(0)))).load().notes,
                          "anisotropy takes the tangents of the normal map"));
     GltfFile turning = mapped(coat(info(1)));
-    animate(turning,
-            "KHR_materials_clearcoat/clearcoatNormalTexture/extensions/KHR_texture_transform/rotation", {0},
-            {1});
+    animate(
+        turning,
+        "extensions/KHR_materials_clearcoat/clearcoatNormalTexture/extensions/KHR_texture_transform/rotation",
+        {0, 1});
     EXPECT_TRUE(mentions(turning.load().notes, "keep their angle to the normal map's"));
 }
 
@@ -370,16 +358,16 @@ TEST(GltfLayers, AnisotropyWithoutTangentsAndCoordinatesIsNoted) {
 
 // A material that is isotropic at rest has tangents for the time when it is not.
 TEST(GltfLayers, AnimatedStrengthNeedsTangentsFromTheStart) {
-    const char* const strength = "KHR_materials_anisotropy/anisotropyStrength";
+    const char* const strength = "extensions/KHR_materials_anisotropy/anisotropyStrength";
     GltfFile f = mapped(brushed(Json::object()));
-    animate(f, strength, {0}, {1});
+    animate(f, strength, {0, 1});
     const Scene scene = f.load();
     ASSERT_EQ(scene.animations.size(), 1u);
     expectTangents(f.only(scene).tangents, {0, 1, 0}, strength);
     EXPECT_EQ(requirements(scene, poseAt(scene, 0)).layers, 0u);
     EXPECT_EQ(requirements(scene, poseAt(scene, 0.5)).layers, gpu::LAYER_ANISOTROPY);
     GltfFile bare = withMaterial(brushed(Json::object()));
-    animate(bare, strength, {0}, {1});
+    animate(bare, strength, {0, 1});
     EXPECT_TRUE(mentions(bare.load().notes, arbitrary));
 }
 
@@ -395,8 +383,8 @@ TEST(GltfLayers, TangentsTurnWithTheMapThatDefinesThem) {
          "KHR_materials_anisotropy/anisotropyTexture", -1}};
     for (const auto& [material, slot, sign] : cases) {
         GltfFile f = mapped(material);
-        animate(f, fmt::format("{}/extensions/KHR_texture_transform/rotation", slot), {0},
-                {std::numbers::pi_v<float>});
+        animate(f, fmt::format("extensions/{}/extensions/KHR_texture_transform/rotation", slot),
+                {0, std::numbers::pi_v<float>});
         const Scene scene = f.load();
         const Pose pose = poseAt(scene, 1);
         ASSERT_EQ(pose.instances.size(), 1u);

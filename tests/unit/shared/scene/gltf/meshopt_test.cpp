@@ -266,7 +266,7 @@ TEST(GltfMeshopt, WhatIsWrongIsSaidInOneLine) {
         {"bufferView 1: EXT_meshopt_compression: its data has another mode",
          [](GltfFile& f) { f.data[36] = '\x77'; }},
         {"buffer 1: has no data: it is a fallback for readers without EXT_meshopt_compression",
-         [](GltfFile& f) { f.json["bufferViews"][1].erase("extensions"); }},
+         erases("/bufferViews/1", "extensions")},
     };
     for (const Fault& fault : faults) {
         GltfFile f = compressedTriangle();
@@ -320,7 +320,7 @@ TEST(GltfMeshopt, DamagedStreamsAreSceneOrLine) {
     const std::size_t begin = binary.size() - f.data.size();
     std::mt19937 random(5);
     int scenes = 0, lines = 0;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 600; ++i) {
         Bytes bytes(binary.begin(), binary.end());
         for (auto flips = 1 + random() % 3; flips > 0; --flips)
             bytes[begin + random() % f.data.size()] ^= static_cast<unsigned char>(1u << random() % 8);

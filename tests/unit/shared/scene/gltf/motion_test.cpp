@@ -5,7 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 using namespace diptych;
 using Json = nlohmann::json;
@@ -201,68 +203,49 @@ TEST(GltfMotion, KeysAtOneTimeAreReadAndNoted) {
 
 // Animations are optional: a faulty channel is skipped with a note on its fault.
 TEST(GltfMotion, FaultyChannelsAreLeftOutWithTheirFault) {
-    struct Case {
-        const char* fault;
-        void (*change)(AnimatedFile&);
+    using Change = std::function<void(AnimatedFile&)>;
+    const auto timesAre = [](const std::vector<float>& times) -> Change {
+        return [=](AnimatedFile& f) {
+            f.channel("translation", "LINEAR", f.vectors(3), f.accessor(times, FLOAT, "SCALAR", 1));
+        };
     };
-    const auto times = [](AnimatedFile& f, const std::vector<float>& t) {
-        f.channel("translation", "LINEAR", f.vectors(3), f.accessor(t, FLOAT, "SCALAR", 1));
+    const auto vectorsOf = [](std::size_t count, const char* path, const char* interpolation) -> Change {
+        return [=](AnimatedFile& f) { f.channel(path, interpolation, f.vectors(count)); };
     };
-    static const auto withTimes = times;
-    for (const Case& c : {
-             Case{"input: key 2 at 0.5 s is before the previous key",
-                  [](AnimatedFile& f) {
-                      withTimes(f, {0, 1, 0.5f});
-                  }},
-             Case{"input: key 1 has the invalid time nan s",
-                  [](AnimatedFile& f) {
-                      withTimes(f, {0, NAN, 2});
-                  }},
-             Case{"input: key 0 has the invalid time -1 s",
-                  [](AnimatedFile& f) {
-                      withTimes(f, {-1, 0, 2});
-                  }},
-             Case{"input: key 2 has the invalid time inf s",
-                  [](AnimatedFile& f) {
-                      withTimes(f, {0, 1, INFINITY});
-                  }},
-             Case{"input: accessor 0 is not SCALAR of floats",
-                  [](AnimatedFile& f) { f.channel("translation", "LINEAR", f.vectors(3), 0); }},
-             Case{"output: 2 elements for 3 keys",
-                  [](AnimatedFile& f) { f.channel("translation", "LINEAR", f.vectors(2)); }},
-             Case{"output: 3 elements for 3 keys",
-                  [](AnimatedFile& f) { f.channel("translation", "CUBICSPLINE", f.vectors(3)); }},
-             Case{"is not VEC4 of floats or normalized integers",
-                  [](AnimatedFile& f) { f.channel("rotation", "LINEAR", f.vectors(3)); }},
-             Case{"is not VEC3 of floats",
-                  [](AnimatedFile& f) {
-                      f.channel("scale", "LINEAR",
-                                f.accessor(std::vector<std::uint8_t>(9, 1), UBYTE, "VEC3", 3, true));
-                  }},
-             Case{"rotation 0 is 0 0 0 0",
-                  [](AnimatedFile& f) {
-                      f.channel("rotation", "LINEAR",
-                                f.accessor(std::vector<float>(12, 0), FLOAT, "VEC4", 4));
-                  }},
-             Case{"output: has values that are not finite",
-                  [](AnimatedFile& f) {
-                      f.channel("scale", "LINEAR", f.accessor(std::vector<float>(9, NAN), FLOAT, "VEC3", 3));
-                  }},
-             Case{"3 weights per key, but node 0 has 2 morph targets",
-                  [](AnimatedFile& f) { f.channel("weights", "STEP", f.vectors(9, "SCALAR", 1)); }},
-             Case{"node 0 has a matrix, which cannot be animated",
-                  [](AnimatedFile& f) {
-                      f.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-                      f.channel("scale", "LINEAR", f.vectors(3));
-                  }},
-         }) {
+    const auto valuesAre = [](const char* path, const char* type, const auto& values, int component) {
+        return [=](AnimatedFile& f) {
+            const auto width = static_cast<std::size_t>(type[3] - '0');
+            f.channel(path, "LINEAR", f.accessor(values, component, type, width, component != FLOAT));
+        };
+    };
+    const std::pair<const char*, Change> cases[] = {
+        {"input: key 2 at 0.5 s is before the previous key", timesAre({0, 1, 0.5f})},
+        {"input: key 1 has the invalid time nan s", timesAre({0, NAN, 2})},
+        {"input: key 0 has the invalid time -1 s", timesAre({-1, 0, 2})},
+        {"input: key 2 has the invalid time inf s", timesAre({0, 1, INFINITY})},
+        {"input: accessor 0 is not SCALAR of floats",
+         [](AnimatedFile& f) { f.channel("translation", "LINEAR", f.vectors(3), 0); }},
+        {"output: 2 elements for 3 keys", vectorsOf(2, "translation", "LINEAR")},
+        {"output: 3 elements for 3 keys", vectorsOf(3, "translation", "CUBICSPLINE")},
+        {"is not VEC4 of floats or normalized integers", vectorsOf(3, "rotation", "LINEAR")},
+        {"is not VEC3 of floats", valuesAre("scale", "VEC3", std::vector<std::uint8_t>(9, 1), UBYTE)},
+        {"rotation 0 is 0 0 0 0", valuesAre("rotation", "VEC4", std::vector<float>(12, 0), FLOAT)},
+        {"output: has values that are not finite",
+         valuesAre("scale", "VEC3", std::vector<float>(9, NAN), FLOAT)},
+        {"3 weights per key, but node 0 has 2 morph targets",
+         [](AnimatedFile& f) { f.channel("weights", "STEP", f.vectors(9, "SCALAR", 1)); }},
+        {"node 0 has a matrix, which cannot be animated", [](AnimatedFile& f) {
+             f.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+             f.channel("scale", "LINEAR", f.vectors(3));
+         }}};
+    for (const auto& [fault, change] : cases) {
         AnimatedFile f;
-        c.change(f);
+        change(f);
         const Scene scene = f.load();
-        EXPECT_TRUE(scene.animations.empty()) << c.fault;
-        EXPECT_TRUE(mentions(scene.notes, "animation 0: 1 of 1 channels left out: channel 0: ")) << c.fault;
-        EXPECT_TRUE(mentions(scene.notes, c.fault))
-            << c.fault << " -> " << (scene.notes.empty() ? "" : scene.notes[0]);
+        EXPECT_TRUE(scene.animations.empty()) << fault;
+        EXPECT_TRUE(mentions(scene.notes, "animation 0: 1 of 1 channels left out: channel 0: ")) << fault;
+        EXPECT_TRUE(mentions(scene.notes, fault))
+            << fault << " -> " << (scene.notes.empty() ? "" : scene.notes[0]);
         EXPECT_EQ(scene.nodes[0].transform, -1);
     }
     AnimatedFile twice;

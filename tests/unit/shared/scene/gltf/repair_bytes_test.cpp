@@ -116,7 +116,10 @@ TEST(GltfRepairBytes, UrisOfEveryKindOfWriter) {
     writeBeside("sub/y z.bin", f.data);
     writeBeside("both one.bin", f.data);
     writeBeside("both%20one.bin", std::string(36, 'x'));  // the decoded name is tried first
-    const std::string base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";  // see DataUrisAreRead
+    // (0 0 0) (1 0 0) (0 1 0) as floats; 0x3f80 is "gD8" after two zero bytes
+    const std::string base64 = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    std::string bytes;
+    for (int i = 0; i < 36; ++i) bytes += i == 14 || i == 30 ? "%80" : i == 15 || i == 31 ? "%3f" : "%00";
     std::string percent = base64;
     for (std::size_t at; (at = percent.find("g")) != percent.npos;) percent.replace(at, 1, "%67");
     const std::pair<std::string, std::string> cases[] = {
@@ -125,6 +128,9 @@ TEST(GltfRepairBytes, UrisOfEveryKindOfWriter) {
         {"sub\\x.bin", "buffer 0: sub/x.bin: a backslash in its uri is read as /"},
         {"sub%5Cx.bin", "buffer 0: sub/x.bin: a backslash in its uri is read as /"},
         {"sub\\y%20z.bin", "buffer 0: sub/y z.bin: a backslash in its uri is read as /"},
+        {"data:," + bytes, ""},
+        {"data:application/gltf-buffer;base64," + base64, ""},
+        {"data:application/octet-stream;base64," + base64, ""},
         {"DATA:;base64," + base64, ""},
         {"Data:application/octet-stream;BASE64," + base64, ""},
         {"data:;base64," + percent, ""},

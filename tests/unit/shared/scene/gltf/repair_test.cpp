@@ -29,65 +29,37 @@ TEST(GltfRepair, BrokenThingsThatNothingDrawsAreNoted) {
     const Json bad = {{"index", 9}};
     const Case cases[] = {
         {"buffer 1: gone.bin: no such file: the scene does not use it",
-         [](GltfFile& f) {
-             f.json["buffers"].push_back({{"byteLength", 4}, {"uri", "gone.bin"}});
-         }},
+         sets("/buffers/-", {{"byteLength", 4}, {"uri", "gone.bin"}})},
         {"buffer 1: has no uri, and the file has no binary chunk for it: the scene does not use it",
-         [](GltfFile& f) {
-             f.json["buffers"].push_back({{"byteLength", 4}});
-         }},
-        {"buffer 1: has no byteLength: left out",
-         [](GltfFile& f) {
-             f.json["buffers"].push_back({{"uri", "gone.bin"}});
-         }},
+         sets("/buffers/-", {{"byteLength", 4}})},
+        {"buffer 1: has no byteLength: left out", sets("/buffers/-", {{"uri", "gone.bin"}})},
         {"bufferView 1: buffer 5, but the file has 1: left out",
-         [](GltfFile& f) {
-             f.json["bufferViews"].push_back({{"buffer", 5}, {"byteLength", 4}});
-         }},
+         sets("/bufferViews/-", {{"buffer", 5}, {"byteLength", 4}})},
         {"accessor 1: componentType 7 does not exist: left out",
-         [](GltfFile& f) {
-             f.json["accessors"].push_back({{"componentType", 7}, {"count", 1}, {"type", "SCALAR"}});
-         }},
-        {"sampler 0: wrapS is \"x\", not a whole number: left out",
-         [](GltfFile& f) {
-             f.json["samplers"] = {{{"wrapS", "x"}}};
-         }},
-        {"image 0: bufferView 7, but the file has 1: left out",
-         [](GltfFile& f) {
-             f.json["images"] = {{{"bufferView", 7}}};
-         }},
+         sets("/accessors/-", {{"componentType", 7}, {"count", 1}, {"type", "SCALAR"}})},
+        {"sampler 0: wrapS is \"x\", not a whole number: left out", sets("/samplers", {{{"wrapS", "x"}}})},
+        {"image 0: bufferView 7, but the file has 1: left out", sets("/images", {{{"bufferView", 7}}})},
         {"material 0: normalTexture: index names texture 9, but the file has 0: left out",
          [bad](GltfFile& f) {
              f.json["materials"] = {{{"normalTexture", bad}}};
          }},
         {"mesh 1, primitive 0: attributes: POSITION names accessor 9, but the file has 1: left out",
-         [](GltfFile& f) {
-             f.json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 9}}}}}}});
-         }},
-        {"node 1: mesh 9, but the file has 1: left out",
-         [](GltfFile& f) {
-             f.json["nodes"].push_back({{"mesh", 9}});
-         }},
+         sets("/meshes/-", {{"primitives", {{{"attributes", {{"POSITION", 9}}}}}}})},
+        {"node 1: mesh 9, but the file has 1: left out", sets("/nodes/-", {{"mesh", 9}})},
         {"camera 0: is perspective but has no perspective: left out",
          [](GltfFile& f) {
              f.json["cameras"] = {{{"type", "perspective"}}};
              f.json["nodes"][0]["camera"] = 0;
          }},
         {"light 0: is spot but has no spot: left out",
-         [](GltfFile& f) {
-             f.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
-         }},
+         sets("/extensions/KHR_lights_punctual/lights", {{{"type", "spot"}}})},
         {"animation 0, sampler 0: input names accessor 9, but the file has 1: left out",
-         [](GltfFile& f) {
-             f.json["animations"] = {
-                 {{"samplers", {{{"input", 9}, {"output", 0}}}},
-                  {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
-         }},
+         sets("/animations",
+              {{{"samplers", {{{"input", 9}, {"output", 0}}}},
+                {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}})},
         {"animation 0, channel 0: target: has no path: left out",
-         [](GltfFile& f) {
-             f.json["animations"] = {
-                 {{"samplers", Json::array()}, {"channels", {{{"sampler", 0}, {"target", Json::object()}}}}}};
-         }},
+         sets("/animations",
+              {{{"samplers", Json::array()}, {"channels", {{{"sampler", 0}, {"target", Json::object()}}}}}})},
         {"skin 0: inverseBindMatrices names accessor 9, but the file has 1: left out",
          [](GltfFile& f) {
              f.json["skins"] = {{{"joints", {0}}, {"inverseBindMatrices", 9}}};
@@ -112,10 +84,9 @@ TEST(GltfRepair, BrokenThingsThatAreDrawnAreRefused) {
         std::function<void(GltfFile&)> change;
     };
     const Case cases[] = {
-        {"buffer 0: gone.bin: no such file", [](GltfFile& f) { f.json["buffers"][0]["uri"] = "gone.bin"; }},
-        {"buffer 0: has no byteLength", [](GltfFile& f) { f.json["buffers"][0].erase("byteLength"); }},
-        {"bufferView 0: buffer 5, but the file has 1",
-         [](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 5; }},
+        {"buffer 0: gone.bin: no such file", sets("/buffers/0/uri", "gone.bin")},
+        {"buffer 0: has no byteLength", erases("/buffers/0", "byteLength")},
+        {"bufferView 0: buffer 5, but the file has 1", sets("/bufferViews/0/buffer", 5)},
         {"sampler 0: wrapS is \"x\", not a whole number",
          [](GltfFile& f) {
              f.json["samplers"] = {{{"wrapS", "x"}}};

@@ -19,20 +19,6 @@ Json glossy(Json properties) {
 const std::string glossyPart = "extensions/KHR_materials_pbrSpecularGlossiness/",
                   turnedTexture = "Texture/extensions/KHR_texture_transform/rotation";
 
-// KHR_animation_pointer to a property of material 0, with linear keys at 0 s and 1 s.
-void animate(GltfFile& f, const std::string& property, const std::vector<float>& values) {
-    const char* const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-    const std::size_t width = values.size() / 2;
-    Json& animation = f.json["animations"][0];
-    animation["channels"].push_back(
-        {{"sampler", animation["samplers"].size()},
-         {"target",
-          {{"path", "pointer"},
-           {"extensions", {{"KHR_animation_pointer", {{"pointer", "/materials/0/" + property}}}}}}}});
-    animation["samplers"].push_back({{"input", f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1)},
-                                     {"output", f.accessor(values, FLOAT, types[width], width)}});
-}
-
 }  // namespace
 
 TEST(GltfSpecularGlossiness, FactorsAndTexturesAreRead) {

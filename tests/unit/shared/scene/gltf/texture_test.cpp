@@ -3,6 +3,7 @@
 #include "shared/image/limits.h"
 #include "tests/fuzz/base64.h"
 #include "tests/support/gltf_material_builder.h"
+#include "tests/support/layer_table.h"
 #include "tests/support/webp_builder.h"
 
 #include <array>
@@ -15,124 +16,37 @@ using Json = nlohmann::json;
 
 namespace {
 
-// The slots: each with its name in a file and its member in Material.
+// The slots: each with its object in a material, its name there and its member in Material.
 struct SlotCase {
-    const char* name;
-    Json (*material)(Json info);
+    std::string in, name;
     TextureSlot Material::*slot;
+    Json material(const Json& info) const {
+        Json made;
+        made[Json::json_pointer(in + "/" + name)] = info;
+        return made;
+    }
 };
 
-const SlotCase slotCases[] = {
-    {"baseColorTexture",
-     [](Json info) {
-         return Json{{"pbrMetallicRoughness", {{"baseColorTexture", info}}}};
-     },
-     &Material::base_color_texture},
-    {"metallicRoughnessTexture",
-     [](Json info) {
-         return Json{{"pbrMetallicRoughness", {{"metallicRoughnessTexture", info}}}};
-     },
-     &Material::metallic_roughness_texture},
-    {"normalTexture",
-     [](Json info) {
-         return Json{{"normalTexture", info}};
-     },
-     &Material::normal_texture},
-    {"occlusionTexture",
-     [](Json info) {
-         return Json{{"occlusionTexture", info}};
-     },
-     &Material::occlusion_texture},
-    {"emissiveTexture",
-     [](Json info) {
-         return Json{{"emissiveTexture", info}};
-     },
-     &Material::emissive_texture},
-    {"specularTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_specular", {{"specularTexture", info}}}}}};
-     },
-     &Material::specular_texture},
-    {"specularColorTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_specular", {{"specularColorTexture", info}}}}}};
-     },
-     &Material::specular_color_texture},
-    {"diffuseTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseTexture", info}}}}}};
-     },
-     &Material::base_color_texture},
-    {"specularGlossinessTexture",
-     [](Json info) {
-         return Json{{"extensions",
-                      {{"KHR_materials_pbrSpecularGlossiness", {{"specularGlossinessTexture", info}}}}}};
-     },
-     &Material::specular_color_texture},
-    {"clearcoatTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatTexture", info}}}}}};
-     },
-     &Material::clearcoat_texture},
-    {"clearcoatRoughnessTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatRoughnessTexture", info}}}}}};
-     },
-     &Material::clearcoat_roughness_texture},
-    {"clearcoatNormalTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatNormalTexture", info}}}}}};
-     },
-     &Material::clearcoat_normal_texture},
-    {"anisotropyTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_anisotropy", {{"anisotropyTexture", info}}}}}};
-     },
-     &Material::anisotropy_texture},
-    {"sheenColorTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_sheen", {{"sheenColorTexture", info}}}}}};
-     },
-     &Material::sheen_color_texture},
-    {"sheenRoughnessTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_sheen", {{"sheenRoughnessTexture", info}}}}}};
-     },
-     &Material::sheen_roughness_texture},
-    {"iridescenceTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_iridescence", {{"iridescenceTexture", info}}}}}};
-     },
-     &Material::iridescence_texture},
-    {"iridescenceThicknessTexture",
-     [](Json info) {
-         return Json{
-             {"extensions", {{"KHR_materials_iridescence", {{"iridescenceThicknessTexture", info}}}}}};
-     },
-     &Material::iridescence_thickness_texture},
-    {"transmissionTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_transmission", {{"transmissionTexture", info}}}}}};
-     },
-     &Material::transmission_texture},
-    {"thicknessTexture",
-     [](Json info) {
-         return Json{{"extensions", {{"KHR_materials_volume", {{"thicknessTexture", info}}}}}};
-     },
-     &Material::thickness_texture},
-    {"diffuseTransmissionTexture",
-     [](Json info) {
-         return Json{{"extensions",
-                      {{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionTexture", info}}}}}};
-     },
-     &Material::diffuse_transmission_texture},
-    {"diffuseTransmissionColorTexture",
-     [](Json info) {
-         return Json{{"extensions",
-                      {{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionColorTexture", info}}}}}};
-     },
-     &Material::diffuse_transmission_color_texture},
-};
+const std::vector<SlotCase>& slotCases() {
+    static const std::vector<SlotCase> cases = [] {
+        const std::string metal = "/pbrMetallicRoughness", extensions = "/extensions/KHR_materials_",
+                          specular = extensions + "specular", gloss = extensions + "pbrSpecularGlossiness";
+        std::vector<SlotCase> all{{metal, "baseColorTexture", &Material::base_color_texture},
+                                  {metal, "metallicRoughnessTexture", &Material::metallic_roughness_texture},
+                                  {"", "normalTexture", &Material::normal_texture},
+                                  {"", "occlusionTexture", &Material::occlusion_texture},
+                                  {"", "emissiveTexture", &Material::emissive_texture},
+                                  {specular, "specularTexture", &Material::specular_texture},
+                                  {specular, "specularColorTexture", &Material::specular_color_texture},
+                                  {gloss, "diffuseTexture", &Material::base_color_texture},
+                                  {gloss, "specularGlossinessTexture", &Material::specular_color_texture}};
+        for (const TestedLayer& layer : testedLayers())
+            for (const LayerTexture& t : layer.textures)
+                all.push_back({extensions + t.extension, t.key, materialSlots[t.slot].texture});
+        return all;
+    }();
+    return cases;
+}
 
 Json transformed(Json transform, int texcoord = 0) {
     return {{"index", 0},
@@ -146,7 +60,7 @@ Json transformed(Json transform, int texcoord = 0) {
 
 // KHR_texture_transform: uv' = T R S uv with R = (cos, sin; -sin, cos); 30 degrees, exact to double.
 TEST(GltfTexture, EverySlotHasItsUvSetAndTransform) {
-    for (const SlotCase& c : slotCases) {
+    for (const SlotCase& c : slotCases()) {
         TextureSlot slot = materialOf(c.material({{"index", 0}})).*c.slot;
         EXPECT_EQ(slot.texture, 0) << c.name;
         EXPECT_EQ(slot.texcoord, 0) << c.name;
@@ -177,7 +91,7 @@ TEST(GltfTexture, EverySlotHasItsUvSetAndTransform) {
 
 TEST(GltfTexture, TransformsBeyondAnyImageAreNoted) {
     const Scene scene =
-        withMaterial(slotCases[2].material(transformed({{"offset", {1e30, 0}}, {"scale", {1, -1e38}}})))
+        withMaterial(slotCases()[2].material(transformed({{"offset", {1e30, 0}}, {"scale", {1, -1e38}}})))
             .load();
     EXPECT_EQ(scene.materials[0].normal_texture.u, glm::dvec3(1, 0, 1e12));
     EXPECT_EQ(scene.materials[0].normal_texture.v, glm::dvec3(0, -1e12, 0));
@@ -187,13 +101,13 @@ TEST(GltfTexture, TransformsBeyondAnyImageAreNoted) {
 }
 
 TEST(GltfTexture, AThirdUvSetIsLeftOutWithANote) {
-    for (const SlotCase& c : slotCases)
+    for (const SlotCase& c : slotCases())
         for (const Json& info : {Json{{"index", 0}, {"texCoord", 2}}, transformed({{"texCoord", 2}})}) {
             const Scene scene = withMaterial(c.material(info)).load();
             EXPECT_EQ((scene.materials[0].*c.slot).texture, -1) << c.name;
-            EXPECT_TRUE(
-                mentions(scene.notes, std::string("material 0: ") + c.name +
-                                          " reads TEXCOORD_2: left out, only two UV sets are supported"));
+            EXPECT_TRUE(mentions(
+                scene.notes,
+                "material 0: " + c.name + " reads TEXCOORD_2: left out, only two UV sets are supported"));
         }
 }
 

@@ -4,12 +4,12 @@
 #include "shared/image/image_file.h"
 #include "tests/support/errors.h"
 #include "tests/support/jpeg_builder.h"
+#include "tests/support/png_builder.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
-#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -21,37 +21,10 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-// A PNG of 2 x 2 pixels; `rows` as the file stores them, 16 bits big-endian.
-struct PngBuilder {
-    int depth = 8, color = PNG_COLOR_TYPE_RGBA;
-    std::vector<Bytes> rows;
-    int width = 2, height = 2;
-    bool interlaced = false;
-    std::function<void(png_structp, png_infop)> extra{};  // other chunks
-
-    Bytes made() const {
-        Bytes file;
-        png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-        png_infop info = png_create_info_struct(png);
-        png_set_write_fn(
-            png, &file,
-            [](png_structp p, png_bytep data, std::size_t size) {
-                auto& out = *static_cast<Bytes*>(png_get_io_ptr(p));
-                out.insert(out.end(), data, data + size);
-            },
-            nullptr);
-        png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), depth,
-                     color, interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
-                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-        if (extra) extra(png, info);
-        std::vector<png_bytep> pointers;
-        for (const Bytes& row : rows) pointers.push_back(const_cast<png_bytep>(row.data()));
-        png_set_rows(png, info, pointers.data());
-        png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
-        png_destroy_write_struct(&png, &info);
-        return file;
-    }
-};
+Bytes pngFile(const MadePng& made) {
+    const std::string file = pngOf(made);
+    return {file.begin(), file.end()};
+}
 
 std::string failure(const Bytes& file) {
     return faultOf([&] { decodeImage(file); });
@@ -76,24 +49,19 @@ void expectColor(const Bytes& file, int r, int g, int b, int tolerance = 1) {
     }
 }
 
-const png_color palette[] = {{1, 2, 3}, {40, 50, 60}, {255, 0, 128}};
-void withPalette(png_structp png, png_infop info) {
-    png_set_PLTE(png, info, palette, png_get_bit_depth(png, info) == 1 ? 2 : 3);
-}
-
 }  // namespace
 
 // ---- PNG ---------------------------------------------------------------------------------------------
 
 TEST(ImageDecode, EightBitsOfEveryColourType) {
     expectRgba(
-        PngBuilder{8, PNG_COLOR_TYPE_RGBA, {{1, 2, 3, 4, 5, 6, 7, 8}, {9, 10, 11, 12, 13, 14, 15, 0}}}.made(),
+        pngFile({PNG_COLOR_TYPE_RGBA, 8, 2, {{1, 2, 3, 4, 5, 6, 7, 8}, {9, 10, 11, 12, 13, 14, 15, 0}}}),
         {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0});
-    expectRgba(PngBuilder{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 5, 6, 7}, {9, 10, 11, 13, 14, 15}}}.made(),
+    expectRgba(pngFile({PNG_COLOR_TYPE_RGB, 8, 2, {{1, 2, 3, 5, 6, 7}, {9, 10, 11, 13, 14, 15}}}),
                {1, 2, 3, 255, 5, 6, 7, 255, 9, 10, 11, 255, 13, 14, 15, 255});
-    expectRgba(PngBuilder{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 255}}}.made(),
+    expectRgba(pngFile({PNG_COLOR_TYPE_GRAY, 8, 2, {{1, 2}, {3, 255}}}),
                {1, 1, 1, 255, 2, 2, 2, 255, 3, 3, 3, 255, 255, 255, 255, 255});
-    expectRgba(PngBuilder{8, PNG_COLOR_TYPE_GRAY_ALPHA, {{1, 20, 2, 30}, {3, 40, 4, 0}}}.made(),
+    expectRgba(pngFile({PNG_COLOR_TYPE_GRAY_ALPHA, 8, 2, {{1, 20, 2, 30}, {3, 40, 4, 0}}}),
                {1, 1, 1, 20, 2, 2, 2, 30, 3, 3, 3, 40, 4, 4, 4, 0});
 }
 
@@ -105,20 +73,18 @@ TEST(ImageDecode, FewBits) {
             for (const int c : {v, v, v, 255}) out.push_back(static_cast<unsigned char>(c));
         return out;
     };
-    expectRgba(PngBuilder{1, PNG_COLOR_TYPE_GRAY, {{0x40}, {0x80}}}.made(), grey(0, 255));
-    expectRgba(PngBuilder{2, PNG_COLOR_TYPE_GRAY, {{0x60}, {0x90}}}.made(), grey(85, 170));
-    expectRgba(PngBuilder{4, PNG_COLOR_TYPE_GRAY, {{0x3f}, {0xf3}}}.made(), grey(51, 255));
+    expectRgba(pngFile({PNG_COLOR_TYPE_GRAY, 1, 2, {{0x40}, {0x80}}}), grey(0, 255));
+    expectRgba(pngFile({PNG_COLOR_TYPE_GRAY, 2, 2, {{0x60}, {0x90}}}), grey(85, 170));
+    expectRgba(pngFile({PNG_COLOR_TYPE_GRAY, 4, 2, {{0x3f}, {0xf3}}}), grey(51, 255));
 }
 
 TEST(ImageDecode, PalettesWithAndWithoutAlpha) {
-    const auto build = [](int depth, std::vector<Bytes> rows, bool alpha) {
-        PngBuilder maker{depth, PNG_COLOR_TYPE_PALETTE, std::move(rows)};
-        maker.extra = [alpha](png_structp png, png_infop info) {
-            withPalette(png, info);
-            png_byte values[] = {7, 8};
-            if (alpha) png_set_tRNS(png, info, values, 2, nullptr);
-        };
-        return maker.made();
+    const auto build = [](int depth, const std::vector<Bytes>& rows, bool alpha) {
+        MadePng made{PNG_COLOR_TYPE_PALETTE, depth, 2, rows};
+        made.palette = {{1, 2, 3}, {40, 50, 60}, {255, 0, 128}};
+        if (depth == 1) made.palette.pop_back();
+        if (alpha) made.palette_alpha = {7, 8};
+        return pngFile(made);
     };
     const auto expected = [](bool alpha) {
         const auto a = [&](int v) { return static_cast<unsigned char>(alpha ? v : 255); };
@@ -134,52 +100,40 @@ TEST(ImageDecode, PalettesWithAndWithoutAlpha) {
 
 // tRNS of grey and colour images makes one value transparent; 16-bit values must match in all bits.
 TEST(ImageDecode, OneTransparentColour) {
-    const auto transparent = [](int grey, int red, int green, int blue) {
-        return [=](png_structp png, png_infop info) {
-            png_color_16 key{};
-            key.gray = static_cast<png_uint_16>(grey);
-            key.red = static_cast<png_uint_16>(red);
-            key.green = static_cast<png_uint_16>(green);
-            key.blue = static_cast<png_uint_16>(blue);
-            png_set_tRNS(png, info, nullptr, 0, &key);
-        };
-    };
-    PngBuilder grey{8, PNG_COLOR_TYPE_GRAY, {{1, 2}, {3, 2}}};
-    grey.extra = transparent(2, 0, 0, 0);
-    expectRgba(grey.made(), {1, 1, 1, 255, 2, 2, 2, 0, 3, 3, 3, 255, 2, 2, 2, 0});
-    PngBuilder color{8, PNG_COLOR_TYPE_RGB, {{1, 2, 3, 1, 2, 4}, {5, 2, 3, 1, 2, 3}}};
-    color.extra = transparent(0, 1, 2, 3);
-    expectRgba(color.made(), {1, 2, 3, 0, 1, 2, 4, 255, 5, 2, 3, 255, 1, 2, 3, 0});
-    PngBuilder deep{16, PNG_COLOR_TYPE_GRAY, {{0, 1, 0, 2}}, 2, 1};
-    deep.extra = transparent(2, 0, 0, 0);
-    EXPECT_EQ(decodeImage(deep.made()).rgba16, (std::vector<std::uint16_t>{1, 1, 1, 65535, 2, 2, 2, 0}));
+    MadePng grey{PNG_COLOR_TYPE_GRAY, 8, 2, {{1, 2}, {3, 2}}},
+        deep{PNG_COLOR_TYPE_GRAY, 16, 2, {{0, 1, 0, 2}}};
+    grey.transparent_gray = deep.transparent_gray = 2;
+    expectRgba(pngFile(grey), {1, 1, 1, 255, 2, 2, 2, 0, 3, 3, 3, 255, 2, 2, 2, 0});
+    EXPECT_EQ(decodeImage(pngFile(deep)).rgba16, (std::vector<std::uint16_t>{1, 1, 1, 65535, 2, 2, 2, 0}));
+    MadePng color{PNG_COLOR_TYPE_RGB, 8, 2, {{1, 2, 3, 1, 2, 4}, {5, 2, 3, 1, 2, 3}}};
+    color.transparent_color = {1, 2, 3};
+    expectRgba(pngFile(color), {1, 2, 3, 0, 1, 2, 4, 255, 5, 2, 3, 255, 1, 2, 3, 0});
 }
 
 TEST(ImageDecode, SixteenBitsStaySixteen) {
-    const TextureImage color = decodeImage(
-        PngBuilder{16, PNG_COLOR_TYPE_RGBA, {{0x12, 0x34, 0, 1, 0xff, 0xfe, 0x80, 0}}, 1, 1}.made());
+    const TextureImage color =
+        decodeImage(pngFile({PNG_COLOR_TYPE_RGBA, 16, 1, {{0x12, 0x34, 0, 1, 0xff, 0xfe, 0x80, 0}}}));
     EXPECT_EQ(color.rgba16, (std::vector<std::uint16_t>{0x1234, 1, 0xfffe, 0x8000}));
     EXPECT_TRUE(color.rgba.empty());
-    EXPECT_EQ(decodeImage(PngBuilder{16, PNG_COLOR_TYPE_RGB, {{0, 1, 0, 2, 0, 3}}, 1, 1}.made()).rgba16,
+    EXPECT_EQ(decodeImage(pngFile({PNG_COLOR_TYPE_RGB, 16, 1, {{0, 1, 0, 2, 0, 3}}})).rgba16,
               (std::vector<std::uint16_t>{1, 2, 3, 65535}));
-    EXPECT_EQ(decodeImage(PngBuilder{16, PNG_COLOR_TYPE_GRAY, {{0xab, 0xcd}}, 1, 1}.made()).rgba16,
+    EXPECT_EQ(decodeImage(pngFile({PNG_COLOR_TYPE_GRAY, 16, 1, {{0xab, 0xcd}}})).rgba16,
               (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 65535}));
-    EXPECT_EQ(
-        decodeImage(PngBuilder{16, PNG_COLOR_TYPE_GRAY_ALPHA, {{0xab, 0xcd, 0, 9}}, 1, 1}.made()).rgba16,
-        (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 9}));
+    EXPECT_EQ(decodeImage(pngFile({PNG_COLOR_TYPE_GRAY_ALPHA, 16, 1, {{0xab, 0xcd, 0, 9}}})).rgba16,
+              (std::vector<std::uint16_t>{0xabcd, 0xabcd, 0xabcd, 9}));
 }
 
 TEST(ImageDecode, InterlacedImagesAreWhole) {
-    PngBuilder maker{8, PNG_COLOR_TYPE_RGBA, {}, 13, 11};
+    MadePng made{PNG_COLOR_TYPE_RGBA, 8, 13, {}};
     for (int y = 0; y < 11; ++y) {
         Bytes row;
         for (int x = 0; x < 13; ++x)
             for (const int c : {x, y, x * y, 255 - x}) row.push_back(static_cast<unsigned char>(c));
-        maker.rows.push_back(row);
+        made.rows.push_back(row);
     }
-    const TextureImage straight = decodeImage(maker.made());
-    maker.interlaced = true;
-    EXPECT_EQ(decodeImage(maker.made()).rgba, straight.rgba);
+    const TextureImage straight = decodeImage(pngFile(made));
+    made.interlaced = true;
+    EXPECT_EQ(decodeImage(pngFile(made)).rgba, straight.rgba);
     EXPECT_EQ(straight.rgba[4 * (13 * 10 + 12)], 12);
     EXPECT_EQ(straight.rgba[4 * (13 * 10 + 12) + 1], 10);
 }
@@ -187,22 +141,16 @@ TEST(ImageDecode, InterlacedImagesAreWhole) {
 // glTF 2.0, 3.8.3: gamma, chromaticities and profiles have no effect; texts and broken profiles are
 // skipped.
 TEST(ImageDecode, AncillaryChunksChangeNothing) {
-    PngBuilder plain{8, PNG_COLOR_TYPE_RGB, {{10, 20, 30, 40, 50, 60}}, 2, 1};
-    const Bytes expected = decodeImage(plain.made()).rgba;
-    plain.extra = [](png_structp png, png_infop info) {
-        png_set_gAMA(png, info, 1.0);
-        png_color_8 bits{4, 4, 4, 0, 0};
-        png_set_sBIT(png, info, &bits);
-        std::string long_text(1 << 20, 'x');
-        char key[] = "Comment";
-        png_text text{};
-        text.compression = PNG_TEXT_COMPRESSION_zTXt;
-        text.key = key;
-        text.text = long_text.data();
-        text.text_length = long_text.size();
-        png_set_text(png, info, &text, 1);
-    };
-    EXPECT_EQ(decodeImage(plain.made()).rgba, expected);
+    MadePng made{PNG_COLOR_TYPE_RGB, 8, 2, {{10, 20, 30, 40, 50, 60}}};
+    const Bytes expected = decodeImage(pngFile(made)).rgba;
+    const Bytes long_text(1 << 20, 'x');
+    uLongf size = compressBound(long_text.size());
+    std::string packed(size, ' ');
+    ASSERT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size, long_text.data(), long_text.size()),
+              Z_OK);
+    made.gamma = 1;
+    made.chunks = {{"sBIT", "\4\4\4"}, {"zTXt", std::string("Comment\0\0", 9) + packed.substr(0, size)}};
+    EXPECT_EQ(decodeImage(pngFile(made)).rgba, expected);
 }
 
 // ---- JPEG --------------------------------------------------------------------------------------------
@@ -247,7 +195,7 @@ TEST(ImageDecode, OtherFilesAreRefusedByName) {
 }
 
 TEST(ImageDecode, WhatEndsEarlyIsSaid) {
-    const Bytes png = PngBuilder{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made(),
+    const Bytes png = pngFile({PNG_COLOR_TYPE_RGBA, 8, 2, {Bytes(8, 9), Bytes(8, 7)}}),
                 color = jpeg(JCS_RGB, JCS_YCbCr, {200, 100, 50});
     EXPECT_EQ(failure(Bytes(png.begin(), png.begin() + 40)), "does not decode: it ends early");
     EXPECT_EQ(failure(Bytes(color.begin(), color.end() - 2)), "does not decode: Premature end of JPEG file");
@@ -259,7 +207,7 @@ TEST(ImageDecode, ClaimsThatNoFileOfItsLengthCanHold) {
         std::copy(size.begin(), size.end(), file.begin() + static_cast<long>(at));
         return file;
     };
-    const Bytes png = PngBuilder{8, PNG_COLOR_TYPE_RGBA, {Bytes(8, 9), Bytes(8, 7)}}.made();
+    const Bytes png = pngFile({PNG_COLOR_TYPE_RGBA, 8, 2, {Bytes(8, 9), Bytes(8, 7)}});
     EXPECT_EQ(failure(sized(png, 16, {0, 0, 0x40, 0, 0, 0, 0x40, 0})),
               "claims 16384 x 16384 pixels, too many for its " + std::to_string(png.size()) + " bytes");
     EXPECT_EQ(failure(sized(png, 16, {0, 0, 0x40, 1, 0, 0, 0, 1})),

@@ -235,12 +235,7 @@ TEST(Animation, OneIsChosenByIndexOrName) {
     EXPECT_EQ(poseAt(scene, 1, "jump").animation, "jump");
     EXPECT_TRUE(mentions(scene.notes, "2 animations: all play at once, later ones override"));
     const auto error = [](const Scene& s, const std::string& choice) {
-        try {
-            poseAt(s, 0, choice);
-        } catch (const std::runtime_error& e) {
-            return std::string(e.what());
-        }
-        return std::string("none");
+        return faultOf([&] { poseAt(s, 0, choice); });
     };
     EXPECT_EQ(error(scene, "walk"),
               "--animation \"walk\": the scene's animations are 0 \"run\", 1, 2 \"jump\"");
