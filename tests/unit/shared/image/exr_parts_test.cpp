@@ -138,6 +138,19 @@ TEST(ExrParts, DataWindowsOfTheirOwn) {
         const ImageFile file = partsOf(exrOf({first, second}));
         ASSERT_EQ(file.layers.size(), 3u);
         expectMade(file.layers[0], 0, {3, 2, 1, 0}, data, display);
+        // What lies outside the display window is cut, which --strict does not accept.
+        const auto said = [](const char* part, const Imath::Box2i& is) {
+            return "part \"" + std::string(part) + "\": its data window is " +
+                   std::to_string(is.size().x + 1) + "x" + std::to_string(is.size().y + 1) + " at " +
+                   std::to_string(is.min.x) + "," + std::to_string(is.min.y) +
+                   ", its display window 10x8 at -3,-2; missing pixels are 0";
+        };
+        const bool inside = data == display || data == box(-1, 0, 2, 3);
+        Names lines{said("ids", second.data)}, in_part;
+        if (data != display)
+            (inside ? lines : in_part).insert((inside ? lines : in_part).begin(), said("beauty", data));
+        EXPECT_EQ(file.notes.lines, lines);
+        EXPECT_EQ(file.notes.in_part, in_part);
         expectMade(file.layers[2], 1, {0, 1}, second.data, display);
     }
 }

@@ -5,7 +5,6 @@
 #include "shared/scene/motion/bounds.h"
 #include "tests/support/gltf_builder.h"
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -43,7 +42,6 @@ TEST(GltfExtremes, TrianglesAtBrokenVerticesAreLeftOutWithACount) {
         const Primitive& p = f.only(scene);
         EXPECT_EQ(p.indices.size(), 9u) << broken;
         for (const glm::vec3& v : p.positions) EXPECT_LE(glm::length(v), 3) << "its vertex is gone as well";
-        EXPECT_TRUE(mentions(scene.notes, "mesh 0, primitive 0: 1 of 4 triangles with a vertex"));
         EXPECT_EQ(worldBounds(scene, poseAt(scene, 0)).max, glm::dvec3(1, 2, 0));
     }
     GltfFile f = strip({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, NAN, 0, 0, 2, 0, 1, 2, 0});
@@ -60,7 +58,7 @@ TEST(GltfExtremes, TrianglesAtBrokenVerticesAreLeftOutWithACount) {
     }
 }
 
-TEST(GltfExtremes, AttributesThatAreNotFiniteAreRepairedWithACount) {
+TEST(GltfExtremes, AttributesThatAreNotFiniteAreRepaired) {
     GltfFile f = GltfFile::triangle();
     Json& attributes = f.primitive()["attributes"];
     attributes["NORMAL"] = f.accessor<float>({0, NAN, 0, 0, 0, 2, INFINITY, 0, 0}, FLOAT, "VEC3", 3);
@@ -75,10 +73,6 @@ TEST(GltfExtremes, AttributesThatAreNotFiniteAreRepairedWithACount) {
     EXPECT_NEAR(glm::length(glm::vec3(p.tangents[1])), 1, 1e-6f);
     EXPECT_EQ(p.texcoords[0], (std::vector<glm::vec2>{{0.5f, 0.5f}, {0, 0}, {0, 0}}));
     EXPECT_EQ(p.colors, (std::vector<glm::vec4>{{1, 1, 1, 1}, {0.5f, 1, 0, 1}, {1, 1, 1, 1}}));
-    EXPECT_TRUE(mentions(scene.notes, "2 normals have no direction"));
-    EXPECT_TRUE(mentions(scene.notes, "2 tangents have no direction"));
-    EXPECT_TRUE(mentions(scene.notes, "TEXCOORD_0: 2 are not finite: 0, 0"));
-    EXPECT_TRUE(mentions(scene.notes, "COLOR_0: 2 are not finite: white"));
 }
 
 // Finite values beyond maxCoordinate are not reported as infinite.
@@ -142,35 +136,6 @@ TEST(GltfExtremes, WhatDecodesToTooMuchIsRefusedBeforehand) {
     const Scene scene = f.load();
     EXPECT_EQ(scene.meshes[0].primitives.size(), 1001u);
     EXPECT_EQ(scene.meshes[0].primitives[1000].positions.size(), 3u);
-}
-
-TEST(GltfExtremes, NotesOfAMillionFaultsAreFew) {
-    GltfFile f = GltfFile::triangle();
-    Json line = f.primitive();
-    line["mode"] = 1;
-    for (int i = 0; i < 1000; ++i) f.json["meshes"][0]["primitives"].push_back(line);
-    const Scene scene = f.load();
-    EXPECT_EQ(scene.notes.size(), 21u);
-    EXPECT_TRUE(mentions(scene.notes, "980 more notes about meshes"));
-}
-
-TEST(GltfExtremes, NotesOnMaterialsSkinsAndAnimationsAreFewToo) {
-    GltfFile f = GltfFile::triangle();
-    const int times = f.accessor<float>({0, 1}, FLOAT, "SCALAR", 1);
-    f.json["skins"] = {{{"joints", {0}}}};
-    f.json["scenes"][0]["nodes"] = Json::array();
-    for (int i = 0; i < 100; ++i) {
-        f.json["materials"].push_back({{"pbrMetallicRoughness", {{"metallicFactor", 2}}}});
-        f.json["nodes"][i] = {{"mesh", 0}, {"skin", 0}};
-        f.json["scenes"][0]["nodes"].push_back(i);
-        f.json["animations"].push_back(
-            {{"samplers", {{{"input", times}, {"output", times}}}},
-             {"channels", {{{"sampler", 0}, {"target", {{"node", i}, {"path", "scale"}}}}}}});
-    }
-    const Scene scene = f.load();
-    for (const char* what : {"materials", "skins", "animations"})
-        EXPECT_TRUE(mentions(scene.notes, fmt::format("80 more notes about {}", what))) << what;
-    EXPECT_EQ(scene.notes.size(), 3 * 21u);
 }
 
 TEST(GltfExtremes, MeshesThatNothingDrawsAreNotRead) {

@@ -325,14 +325,6 @@ TEST(GltfLayers, EachMapHasTheTangentsOfItsCoordinates) {
             EXPECT_EQ(turned.w, sign) << what;
         }
     }
-    EXPECT_TRUE(mentions(mapped(merged(coat(info(1)), texture(info(0)))).load().notes,
-                         "anisotropy takes the tangents of the normal map"));
-    GltfFile turning = mapped(coat(info(1)));
-    animate(
-        turning,
-        "extensions/KHR_materials_clearcoat/clearcoatNormalTexture/extensions/KHR_texture_transform/rotation",
-        {0, 1});
-    EXPECT_TRUE(mentions(turning.load().notes, "keep their angle to the normal map's"));
 }
 
 TEST(GltfLayers, TheFilesOwnTangentsStay) {
@@ -346,12 +338,10 @@ TEST(GltfLayers, TheFilesOwnTangentsStay) {
     EXPECT_EQ(f.only(scene).tangents[0].w, -1);
 }
 
-TEST(GltfLayers, AnisotropyWithoutTangentsAndCoordinatesIsNoted) {
+TEST(GltfLayers, AnisotropyWithoutTangentsAndCoordinatesHasSome) {
     const Scene scene = withMaterial(brushed({{"anisotropyStrength", 0.5}})).load();
-    EXPECT_TRUE(mentions(scene.notes, arbitrary));
     for (const glm::vec4& t : scene.meshes.at(0).primitives.at(0).tangents)
         EXPECT_NEAR(glm::length(glm::vec3(t)), 1, 1e-6);
-    EXPECT_FALSE(mentions(withMaterial(coated({{"clearcoatFactor", 1}})).load().notes, arbitrary));
 }
 
 // ---- animation ---------------------------------------------------------------------------------------

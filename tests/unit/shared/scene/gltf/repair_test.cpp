@@ -211,15 +211,6 @@ TEST(GltfRepair, WhatNeedsABrokenThingIsLeftOutWithIt) {
                      "animation 0: left out, it needs bufferView 1: byteLength is -8, not at least 0"}));
 }
 
-TEST(GltfRepair, NotesOfAMillionBrokenThingsAreFew) {
-    GltfFile f = GltfFile::triangle();
-    for (int i = 0; i < 1000; ++i) f.json["materials"].push_back({{"doubleSided", i}});
-    const Lines notes = f.load().notes;
-    ASSERT_EQ(notes.size(), 21u);
-    EXPECT_EQ(notes[0], "material 0: doubleSided is 0, not true or false: left out");
-    EXPECT_EQ(notes[20], "980 more notes about objects");
-}
-
 TEST(GltfRepair, MaterialsThatNothingIsDrawnWithOpenNoImage) {
     GltfFile f = GltfFile::triangle();
     f.json["images"] = {{{"uri", "missing.png"}}};

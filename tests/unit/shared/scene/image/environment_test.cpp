@@ -91,8 +91,30 @@ TEST(Environment, AnotherShapeIsNoted) {
     writeExr(in / "sky.exr", {{{"R", "G", "B"}, &image}});
     std::vector<std::string> notes;
     EXPECT_EQ(readEnvironment(in / "sky.exr", notes).radiance.height, 4);
-    ASSERT_EQ(notes.size(), 1u);
-    EXPECT_NE(notes[0].find("4 x 4 pixels, not twice as wide as high"), std::string::npos) << notes[0];
+    EXPECT_EQ(notes, std::vector<std::string>{"environment " + (in / "sky.exr").string() +
+                                              ": 4 x 4 pixels, not twice as wide as high; mapped to all "
+                                              "directions"});
+}
+
+// 65504 is the largest half float.
+TEST(Environment, WhatIsBeyondAHalfIsLimitedWithACount) {
+    const std::filesystem::path in = folder();
+    const std::string who = "environment " + (in / "sky.exr").string() + ": ";
+    const auto notes = [&](float first, float last) {
+        Image image = numbered();
+        image.data.front() = first;
+        image.data.back() = last;
+        writeExr(in / "sky.exr", {{{"R", "G", "B"}, &image}});
+        std::vector<std::string> lines;
+        const Environment environment = readEnvironment(in / "sky.exr", lines);
+        EXPECT_EQ(environment.radiance.data.back(), 65504);
+        return lines;
+    };
+    EXPECT_EQ(notes(1, 65504), std::vector<std::string>());
+    EXPECT_EQ(notes(1, 65505),
+              std::vector<std::string>{who + "1 pixel has a component above 65504; 65504 is used"});
+    EXPECT_EQ(notes(1e30f, 70000),
+              std::vector<std::string>{who + "2 pixels have components above 65504; 65504 is used"});
 }
 
 TEST(Environment, WhatCannotBeOneIsNamed) {
