@@ -290,8 +290,8 @@ private:
                 const bool gap = target.part == AnimatedPart::ior && x > 0 && x < 1;
                 if (x >= properties.min && x <= properties.max && !gap) continue;
                 scene.notes.push_back(
-                    gap ? fmt::format("{}: ior {:g} is not 0 or at least 1: 1 is used", who, x)
-                        : fmt::format("{}: {:g} is outside {:g} to {:g}: the nearest value is used", who, x,
+                    gap ? fmt::format("{}: ior {} is not 0 or at least 1: 1 is used", who, x)
+                        : fmt::format("{}: {} is outside {:g} to {:g}: the nearest value is used", who, x,
                                       properties.min, properties.max));
                 return;
             }
