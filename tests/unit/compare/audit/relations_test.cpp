@@ -5,30 +5,22 @@
 #include "compare/audit/report.h"
 #include "compare/audit/small_scene.h"
 #include "compare/output/writers.h"
-#include "shared/scene/builtin/builtin.h"
 #include "shared/scene/gltf/gltf.h"
+#include "tests/support/plain_builtin.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <map>
 #include <set>
 
 namespace diptych::audit {
 
 namespace {
 
-// Built once: a gallery's textures take half a second.
-const Scene& relatedBuiltin(const std::string& name) {
-    static std::map<std::string, Scene> made;
-    const auto found = made.find(name);
-    return found != made.end() ? found->second : made.emplace(name, makeBuiltin(name)).first->second;
-}
-
 Subject related(const std::string& scene, Settings settings = {}) {
     settings.size = {32, 18};
     settings.shadows = Shadows::off;
-    return makeSubject(relatedBuiltin(scene), settings);
+    return makeSubject(plainBuiltin(scene), settings);
 }
 
 const Relation& relationOf(const std::string& name) {
