@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command line of a report, which may come from anywhere.
 #include "compare/cli/command_view.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 
@@ -66,16 +67,10 @@ TEST(CommandLine, OfAReportsCommandOnlyWhatIsShownIsTaken) {
                                                   {"-"}}) {
         std::vector<std::string> command{"compare", "a.glb"};
         command.insert(command.end(), words.begin(), words.end());
-        try {
-            parseReported(command);
-            ADD_FAILURE() << words.front() << " was taken";
-        } catch (const std::runtime_error& error) {
-            EXPECT_TRUE(std::string(error.what()).starts_with("the command of the comparison "))
-                << error.what();
-            EXPECT_NE(std::string(error.what()).find(words.front().substr(0, words.front().find('='))),
-                      std::string::npos)
-                << error.what();
-        }
+        const std::string refusal = faultOf([&] { parseReported(command); });
+        EXPECT_TRUE(refusal.starts_with("the command of the comparison ")) << refusal;
+        EXPECT_NE(refusal.find(words.front().substr(0, words.front().find('='))), std::string::npos)
+            << refusal;
     }
 }
 

@@ -36,7 +36,7 @@ Report passing() {
     return reportOf(bothFrames());
 }
 // Of one channel: for tests of folders.
-Report small() {
+Report ofOneChannel() {
     return reportOf(withOnly({Channel::roughness, Channel::material_id}, bothFrames()));
 }
 Report failing() {
@@ -257,24 +257,24 @@ TEST(Report, AnothersFolderNeedsForce) {
     const fs::path out = folder() / "theirs";
     fs::create_directories(out);
     writeFile(out / "mine.txt", "keep");
-    EXPECT_THROW(writeReport(small(), out, {}), std::runtime_error);
+    EXPECT_THROW(writeReport(ofOneChannel(), out, {}), std::runtime_error);
     EXPECT_EQ(namesIn(out), std::vector<std::string>{"mine.txt"});
     ReportOptions options;
     options.force = true;
-    writeReport(small(), out, options);
+    writeReport(ofOneChannel(), out, options);
     EXPECT_TRUE(fs::exists(out / "report.json"));
     EXPECT_EQ(contentsOf(out / "mine.txt"), "keep");
 }
 
 TEST(Report, AnEditedListRemovesNothingOutside) {
     const fs::path here = folder(), out = here / "report";
-    writeReport(small(), out, {});
+    writeReport(ofOneChannel(), out, {});
     writeFile(here / "outside.txt", "keep");
     Json json = Json::parse(contentsOf(out / "report.json"));
     json["files"].push_back("../outside.txt");
     json["files"].push_back("..");
     writeFile(out / "report.json", json.dump());
-    writeReport(small(), out, {});
+    writeReport(ofOneChannel(), out, {});
     EXPECT_EQ(contentsOf(here / "outside.txt"), "keep");
 }
 
@@ -288,19 +288,19 @@ TEST(Report, AStrangersListRemovesNothing) {
     for (const std::string start : {R"({"schema": 1, )", R"({"schema": 1, "software": "other", )",
                                     R"({"schema": 3, "software": "diptych", )", R"([1, {"schema": 1, )"}) {
         writeFile(out / "report.json", start + files);
-        EXPECT_THROW(writeReport(small(), out, {}), std::runtime_error) << start;
+        EXPECT_THROW(writeReport(ofOneChannel(), out, {}), std::runtime_error) << start;
         EXPECT_EQ(namesIn(out), (std::vector<std::string>{"mine.png", "mine.txt", "report.json"}));
     }
     ReportOptions force;
     force.force = true;
-    writeReport(small(), out, force);
+    writeReport(ofOneChannel(), out, force);
     EXPECT_TRUE(fs::exists(out / "mine.png")) << "--force replaces files, it does not clear folders";
 
     Json json = Json::parse(contentsOf(out / "report.json"));
     EXPECT_EQ(json["software"], "diptych");
     json["files"] = {"mine.txt"};
     writeFile(out / "report.json", json.dump());
-    writeReport(small(), out, {});
+    writeReport(ofOneChannel(), out, {});
     EXPECT_EQ(contentsOf(out / "mine.txt"), "keep") << "diptych never writes .txt";
 }
 
