@@ -62,13 +62,9 @@ TEST(HostileParts, ALinkInAShardIsRefusedByName) {
 TEST(HostileParts, WhatDoesNotFitNamesItsPlace) {
     const std::pair<const char*, std::function<void(Json&)>> attacks[] = {
         {"comparisons[0].frames[0]: is not a whole number from 0 to 1",
-         [](Json& json) {
-             json["comparisons"][0]["frames"] = {1000000, 1};
-         }},
+         [](Json& json) { json["comparisons"][0]["frames"][0] = 1000000; }},
         {"comparisons[0].frames[1]: is not a whole number from 0 to 1",
-         [](Json& json) {
-             json["comparisons"][0]["frames"] = {0, -1};
-         }},
+         [](Json& json) { json["comparisons"][0]["frames"][1] = -1; }},
         {"closer[0][2]: is not a whole number from 0 to 1",
          [](Json& json) {
              json["closer"] = {{0, 1, 2}};

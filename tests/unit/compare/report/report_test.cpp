@@ -25,8 +25,6 @@
 
 namespace diptych {
 
-using page::markup;
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -218,15 +216,6 @@ TEST(Report, NamesOfOthersAreEscaped) {
     EXPECT_EQ(page.find("<script>alert"), std::string::npos);
     EXPECT_NE(junit.find("a&lt;b&gt;&amp;&quot;&#39;\xef\xbf\xbd\xef\xbf\xbd.gltf"), std::string::npos);
     EXPECT_TRUE(Json::accept(reportJson(report, nullptr)));
-}
-
-TEST(Report, MarkupReplacesWhatIsNoCharacter) {
-    const std::string bad = "\xef\xbf\xbd";
-    EXPECT_EQ(markup("gr\xc3\xbc\xc3\x9f"), "gr\xc3\xbc\xc3\x9f");
-    EXPECT_EQ(markup("\xf0\x9f\x99\x82"), "\xf0\x9f\x99\x82");
-    EXPECT_EQ(markup("\xc0\xaf"), bad + bad) << "an overlong slash";
-    EXPECT_EQ(markup("\xed\xa0\x80"), bad + bad + bad) << "a surrogate";
-    EXPECT_EQ(markup("\xe2\x82"), bad + bad) << "cut off";
 }
 
 TEST(Report, OursIsReplacedAndOthersStay) {
