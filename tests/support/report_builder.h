@@ -2,6 +2,8 @@
 // Small reports built by tests, and a parser for their pages.
 #pragma once
 
+#include "compare/report/document.h"
+#include "compare/report/json.h"
 #include "compare/report/report.h"
 #include "compare/verdict/pair_reports.h"
 #include "shared/contract/debug_mode.h"
@@ -83,11 +85,27 @@ inline std::vector<Frame> bothFrames(const std::string& scene = "builtin:one") {
     return frames;
 }
 
+// Without the other channels, which makes reports fast. Comparisons need the material_id.
+inline std::vector<Frame> withOnly(const std::set<Channel>& kept, std::vector<Frame> frames) {
+    for (Frame& frame : frames)
+        std::erase_if(frame.channels, [&](const auto& channel) { return !kept.contains(channel.first); });
+    return frames;
+}
+
 inline Report reportOf(std::vector<Frame> frames, std::vector<std::vector<FeatureChecks>> checks = {}) {
     std::vector<ViewFrames> views(frames.size() / 2);
     for (std::size_t i = 0; i < frames.size(); ++i) views[i / 2].frames.push_back(std::move(frames[i]));
     for (std::size_t i = 0; i < checks.size(); ++i) views[i].checks = std::move(checks[i]);
     return makeReport(std::move(views), {"a CPU", "1.0", "cpu"});
+}
+// index.html and junit.xml of writeReport(), without the files and what writing them counts: histograms and
+// worst pixels.
+inline std::string pageOf(const Report& report, const ReportOptions& options = {}) {
+    const ReportLayout layout = layoutOf(report, options);
+    return reportHtml(report, layout, textsOf(report, layout));
+}
+inline std::string junitOf(const Report& report) {
+    return reportJunit(report, layoutOf(report, {}), "out");
 }
 // Void elements of HTML.
 inline const std::set<std::string> htmlVoids{"meta", "img", "input", "br", "wbr"};

@@ -61,7 +61,7 @@ inline std::vector<std::string> quotedIncludes(const Files& files, const std::st
     std::istringstream lines(files.at(path));
     for (std::string line; std::getline(lines, line);) {
         std::smatch match;
-        if (!std::regex_search(line, match, include)) continue;
+        if (line.find("include") == line.npos || !std::regex_search(line, match, include)) continue;
         const fs::path named = match[1].str();
         const std::string beside = (fs::path(path).parent_path() / named).lexically_normal().generic_string();
         targets.push_back(files.contains(beside) ? beside : named.lexically_normal().generic_string());

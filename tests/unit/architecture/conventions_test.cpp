@@ -28,7 +28,7 @@ bool isUnder(std::string_view path, std::initializer_list<std::string_view> pref
 // Text that only some files may have.
 struct Convention {
     const char* name;
-    std::vector<std::string_view> parts;  // the pattern needs one; regular expressions are slow
+    std::vector<std::string_view> parts;  // every match has one; regular expressions are slow
     const char* pattern;
     std::function<bool(std::string_view path)> forbidden;
     const char* path;                                        // of the planted lines
@@ -185,14 +185,28 @@ const std::vector<Convention>& conventions() {
     return all;
 }
 
+// The lines around each of the parts: a match has at most 200 characters before and after one.
+std::vector<std::string> linesAround(const std::string& text, const std::vector<std::string_view>& parts) {
+    std::vector<std::string> found;
+    for (const std::string_view part : parts)
+        for (std::size_t at = text.find(part), end; at != text.npos; at = text.find(part, end)) {
+            const std::size_t start = at < 200 ? text.npos : text.rfind('\n', at - 200);
+            end = std::min(text.find('\n', at + 200), text.size());
+            found.push_back(text.substr(start + 1, end - start - 1));
+        }
+    return found;
+}
+
 Faults faultsOf(const Convention& convention, const Files& files) {
     const std::regex pattern(convention.pattern);
     Faults faults;
-    for (const auto& [path, text] : files)
-        if (convention.forbidden(path) &&
-            std::ranges::any_of(convention.parts, [&](auto part) { return text.find(part) != text.npos; }))
-            if (std::smatch match; std::regex_search(text, match, pattern))
-                faults.push_back(path + ": " + match.str());
+    for (const auto& [path, text] : files) {
+        if (!convention.forbidden(path)) continue;
+        std::smatch match;
+        const std::vector<std::string> around = linesAround(text, convention.parts);
+        if (std::ranges::any_of(around, [&](const auto& t) { return std::regex_search(t, match, pattern); }))
+            faults.push_back(path + ": " + match.str());
+    }
     return faults;
 }
 

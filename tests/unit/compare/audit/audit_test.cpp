@@ -7,9 +7,9 @@
 #include "compare/audit/small_scene.h"
 #include "compare/frames/frame_properties.h"
 #include "compare/output/writers.h"
-#include "shared/scene/builtin/builtin.h"
 #include "shared/scene/load.h"
 #include "tests/support/files.h"
+#include "tests/support/plain_builtin.h"
 
 #include <gtest/gtest.h>
 
@@ -51,8 +51,7 @@ Subject gallery() {
     Settings settings;
     settings.size = {64, 36};
     settings.shadows = Shadows::off;
-    static const Scene scene = makeBuiltin("gallery");
-    return makeSubject(scene, settings);
+    return makeSubject(plainBuiltin("gallery"), settings);
 }
 
 }  // namespace

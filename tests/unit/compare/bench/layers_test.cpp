@@ -5,6 +5,7 @@
 #include "shared/scene/builtin/builtin.h"
 #include "tests/support/command_lines.h"
 #include "tests/support/errors.h"
+#include "tests/support/report_builder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -226,15 +227,10 @@ TEST(BenchLayers, TextPageJsonAndPlotHaveTheTable) {
     EXPECT_EQ(json["words"].size(), 7u);
     // A panel per light count; in each a line per way.
     const std::string plot = benchPlot(bench, PlotTarget::file);
-    const auto countOf = [&](const std::string& words) {
-        std::size_t count = 0;
-        for (std::size_t at = plot.find(words); at != plot.npos; at = plot.find(words, at + 1)) ++count;
-        return count;
-    };
-    EXPECT_EQ(countOf(">covered, %<"), 2u);
-    EXPECT_EQ(countOf("class=\"trace\" d=\""), 2u * 3 + 3) << "and in the legend";
-    EXPECT_EQ(countOf("series deferred v1\""), 3u);
-    EXPECT_EQ(countOf("deferred by forward, 25 % coated: 26 (26 to 26) ms"), 1u);
+    EXPECT_EQ(countOf(plot, ">covered, %<"), 2u);
+    EXPECT_EQ(countOf(plot, "class=\"trace\" d=\""), 2u * 3 + 3) << "and in the legend";
+    EXPECT_EQ(countOf(plot, "series deferred v1\""), 3u);
+    EXPECT_EQ(countOf(plot, "deferred by forward, 25 % coated: 26 (26 to 26) ms"), 1u);
 }
 
 TEST(BenchLayers, RegistersAreThoseOfPassesThatShade) {

@@ -75,7 +75,7 @@ TEST(ExperimentGrid, WhateverItHoldsIsPlannedOrRefused) {
     std::mt19937 random(3);
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
     int planned = 0, refused = 0;
-    for (int trial = 0; trial < 4000; ++trial) {
+    for (int trial = 0; trial < 1500; ++trial) {
         std::string text = sound;
         for (std::size_t change = below(4); change > 0; --change)
             text.replace(

@@ -79,13 +79,22 @@ TEST(ExperimentSensitivity, ShadowsAreVariedWhereSomethingCasts) {
     EXPECT_GT(valuesOf(sensitiveTo({lightOf(LightKind::point)}), "shadow-lights").size(), 1u);
 }
 
-// A square of one material under an environment: black with a bright texel, or uniform.
-SweepRows sensitiveUnder(const Material& material, bool even) {
+// A primitive of one material.
+Scene sceneOf(const Material& material) {
     Scene scene;
     scene.materials = {material};
     scene.meshes.resize(1);
     scene.meshes[0].primitives.resize(1);
     scene.meshes[0].primitives[0].material = 0;
+    return scene;
+}
+SweepRows sensitiveIn(const Scene& scene) {
+    return sensitiveRows(makeSweepRows({}, defaultGrids({})), {}, &scene);
+}
+
+// Under an environment: black with a bright texel, or uniform.
+SweepRows sensitiveUnder(const Material& material, bool even) {
+    Scene scene = sceneOf(material);
     scene.environment = Environment{"sky", Image(16, 8, 3, even ? 1.0f : 0.0f)};
     if (!even) scene.environment->radiance.at(5, 2, 1) = 100;
     Settings requested;
@@ -141,13 +150,9 @@ TEST(ExperimentSensitivity, AnEnvironmentIsVariedAsItsSurfacesFeelIt) {
 }
 
 TEST(ExperimentSensitivity, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
-    Scene scene;
-    scene.meshes.resize(1);
-    scene.meshes[0].primitives.resize(1);
-    scene.materials.resize(1);
+    Scene scene = sceneOf({});
     Primitive& primitive = scene.meshes[0].primitives[0];
-    primitive.material = 0;
-    const auto sensitive = [&] { return sensitiveRows(makeSweepRows({}, defaultGrids({})), {}, &scene); };
+    const auto sensitive = [&] { return sensitiveIn(scene); };
     EXPECT_EQ(valuesOf(sensitive(), "skinning"), std::set<std::string>{"compute"});
     EXPECT_EQ(reasonOf(sensitive(), "skinning", "vertex"), "no vertex is skinned or morphed");
     primitive.targets.resize(1);
@@ -158,13 +163,9 @@ TEST(ExperimentSensitivity, WhatPosesVerticesIsVariedWhereSomethingDeforms) {
 }
 
 TEST(ExperimentSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
-    Scene scene;
-    scene.meshes.resize(1);
-    scene.meshes[0].primitives.resize(1);
-    scene.materials.resize(1);
-    scene.meshes[0].primitives[0].material = 0;
+    Scene scene = sceneOf({});
     Material& material = scene.materials[0];
-    const auto sensitive = [&] { return sensitiveRows(makeSweepRows({}, defaultGrids({})), {}, &scene); };
+    const auto sensitive = [&] { return sensitiveIn(scene); };
     EXPECT_EQ(valuesOf(sensitive(), "transparency"), std::set<std::string>{"sorted"});
     EXPECT_EQ(valuesOf(sensitive(), "transparency-layers").size(), 1u);
     EXPECT_EQ(reasonOf(sensitive(), "transparency", "weighted"),
@@ -177,11 +178,7 @@ TEST(ExperimentSensitivity, TransparencyIsVariedWhereSomethingIsBlended) {
 
 // Glass alone has no order, but it can be left out. Its layers are in no G-buffer.
 TEST(ExperimentSensitivity, GlassIsVariedByWhetherItIsDrawn) {
-    Scene scene;
-    scene.meshes.resize(1);
-    scene.meshes[0].primitives.resize(1);
-    scene.materials.resize(1);
-    scene.meshes[0].primitives[0].material = 0;
+    Scene scene = sceneOf({});
     Material& material = scene.materials[0];
     material.transmission = material.clearcoat = 1;
     Settings off;

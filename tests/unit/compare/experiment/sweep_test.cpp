@@ -2,6 +2,7 @@
 // The Settings of a sweep's rows.
 #include "compare/experiment/sweep.h"
 #include "shared/frame/setting_rows.h"
+#include "tests/support/errors.h"
 
 #include <gtest/gtest.h>
 
@@ -183,12 +184,8 @@ TEST(ExperimentSweep, WhatADeviceLacksIsLeftOutAndSaid) {
 }
 
 TEST(ExperimentSweep, NothingToDrawIsAnError) {
-    try {
-        makeSweepRows({}, {{{"msaa-shading", {"sample"}}}});
-        FAIL();
-    } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find("--msaa-shading sample"), std::string::npos) << error.what();
-    }
+    const std::string refusal = faultOf([&] { makeSweepRows({}, {{{"msaa-shading", {"sample"}}}}); });
+    EXPECT_NE(refusal.find("--msaa-shading sample"), std::string::npos) << refusal;
 }
 
 TEST(ExperimentSweep, TooManyCombinationsAreRefusedBeforeTheyAreMade) {

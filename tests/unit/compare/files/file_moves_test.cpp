@@ -2,6 +2,7 @@
 // Moving files into a folder together, and recovery after the program was killed.
 #include "compare/files/file_moves.h"
 
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <sys/stat.h>
@@ -103,12 +104,8 @@ TEST(FileMoves, AListNamesOurFilesAlone) {
 
 // Links planted in a folder that is not ours are refused.
 void expectRefused(const fs::path& target, const fs::path& named) {
-    try {
-        finishMoves(target);
-        ADD_FAILURE() << named;
-    } catch (const std::runtime_error& error) {
-        EXPECT_EQ(std::string(error.what()).find(named.string() + ": "), 0u) << error.what();
-    }
+    const std::string refusal = faultOf([&] { finishMoves(target); });
+    EXPECT_EQ(refusal.find(named.string() + ": "), 0u) << refusal;
 }
 
 TEST(FileMoves, ALinkInPlaceOfWhatWasBegunIsRefused) {
@@ -177,14 +174,9 @@ TEST(FileMoves, AListThatCannotBeReadIsNamed) {
     for (const char* list : {"", "[]", R"({"earlier": []})"}) {
         const fs::path target = folder();
         begin(target, {"lit.png"}, list);
-        try {
-            finishMoves(target);
-            ADD_FAILURE() << list;
-        } catch (const std::runtime_error& error) {
-            EXPECT_EQ(std::string(error.what()),
-                      (target / ".diptych.put/.plan.json").string() +
-                          ": left by an interrupted run and unreadable; remove its folder");
-        }
+        const std::string refusal = faultOf([&] { finishMoves(target); });
+        EXPECT_EQ(refusal, (target / ".diptych.put/.plan.json").string() +
+                               ": left by an interrupted run and unreadable; remove its folder");
         EXPECT_TRUE(fs::exists(target / ".diptych.put/lit.png"));
     }
 }

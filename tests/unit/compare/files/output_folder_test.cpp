@@ -5,6 +5,7 @@
 #include "compare/shards/slurm.h"
 #include "shared/image/atomic_file.h"
 #include "shared/image/exr.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -103,14 +104,11 @@ TEST(CheckpointFolder, ALinkIsRefusedAndItsFolderKept) {
     std::ofstream(elsewhere / "mine.txt") << "mine";
     std::ofstream(elsewhere / "key.json") << R"({"software": "diptych", "schema": 1})";
     fs::create_directory_symlink("elsewhere", home / ".r.scenes");
-    try {
+    const std::string refusal = faultOf([&] {
         const CheckpointFolder kept(home / "r", "scenes",
                                     {{"software", "diptych"}, {"schema", 1}, {"of", "me"}});
-        ADD_FAILURE();
-    } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find(".r.scenes: is a symbolic link"), std::string::npos)
-            << error.what();
-    }
+    });
+    EXPECT_NE(refusal.find(".r.scenes: is a symbolic link"), std::string::npos) << refusal;
     EXPECT_EQ(namesIn(elsewhere), (std::vector<std::string>{"key.json", "mine.txt"}));
 }
 
@@ -239,12 +237,8 @@ void expectForeignIsRefused(const fs::path& there, const std::function<void()>& 
     std::ofstream(there / ".plan.json") << R"({"files": [], "earlier": ["index.html"]})";
     fs::create_symlink("key.json", there / "link.json");
     const auto expectRefused = [&](const char* why) {
-        try {
-            use();
-            ADD_FAILURE() << why;
-        } catch (const std::runtime_error& error) {
-            EXPECT_EQ(std::string(error.what()).find(there.string() + ": " + why), 0u) << error.what();
-        }
+        const std::string refusal = faultOf([&] { use(); });
+        EXPECT_EQ(refusal.find(there.string() + ": " + why), 0u) << refusal;
         EXPECT_EQ(namesIn(there), (std::vector<std::string>{".plan.json", "key.json", "link.json"}));
     };
     for (const mode_t mode : {0775, 0757, 01777}) {

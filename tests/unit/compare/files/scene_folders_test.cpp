@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes selected on the command line: folders, patterns, lists.
 #include "compare/files/scene_folders.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
@@ -35,12 +36,8 @@ Names below(const fs::path& root, const Names& words) {
 }
 
 void expectFault(const std::string& word, const std::string& fault) {
-    try {
-        scenesOf({word});
-        ADD_FAILURE() << word;
-    } catch (const std::runtime_error& error) {
-        EXPECT_EQ(error.what(), fault);
-    }
+    const std::string refusal = faultOf([&] { scenesOf({word}); });
+    EXPECT_EQ(refusal, fault);
 }
 
 TEST(SceneFolders, AFolderStandsForItsSceneFilesSorted) {

@@ -282,7 +282,7 @@ TEST(HeatImage, TheTopIsTheNextRoundNumber) {
 
 // On a page the image has no legend inside. It is below, with title, unit and the map's colours.
 TEST(HeatImage, ThePagesLegendStandsBelowWithTitleAndUnit) {
-    std::vector<Frame> frames = bothFrames();
+    std::vector<Frame> frames = withOnly({Channel::light_count, Channel::material_id}, bothFrames());
     for (Frame& frame : frames) {
         std::ranges::fill(frame.channels.at(Channel::material_id).data, 3.0f);  // all pixels show a surface
         Image& counts = frame.channels.at(Channel::light_count);

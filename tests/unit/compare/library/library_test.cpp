@@ -100,44 +100,29 @@ TEST(Library, LimitsDecide) {
 
 TEST(Library, WhatCannotBeComparedSaysWhy) {
     const std::vector<float> four(12, 0.5f), six(18, 0.5f);
-    EXPECT_EQ(faultOf([&] {
-                  compare({2, 2, four}, {3, 2, six});
-              }),
+    const auto fault = [](const Picture& reference, const Picture& test, const Options& options = {}) {
+        return faultOf([&] { compare(reference, test, options); });
+    };
+    const Picture square{2, 2, four};
+    EXPECT_EQ(fault(square, {3, 2, six}),
               "the reference is 2x2 and the test is 3x2: images must have the same size");
-    EXPECT_EQ(faultOf([&] {
-                  compare({2, 3, four}, {2, 2, four});
-              }),
-              "the reference is 2x3 and has 12 values; give 3 per pixel");
-    EXPECT_EQ(faultOf([&] {
-                  compare({0, 0, {}}, {2, 2, four});
-              }),
-              "the reference is 0x0 and has 0 values; give 3 per pixel");
+    EXPECT_EQ(fault({2, 3, four}, square), "the reference is 2x3 and has 12 values; give 3 per pixel");
+    EXPECT_EQ(fault({0, 0, {}}, square), "the reference is 0x0 and has 0 values; give 3 per pixel");
     Options options;
     options.limits = {{"flop", 1}};
-    EXPECT_EQ(faultOf([&] {
-                  compare({2, 2, four}, {2, 2, four}, options);
-              }),
-              "flop: unknown metric; figureNames() lists them");
+    EXPECT_EQ(fault(square, square, options), "flop: unknown metric; figureNames() lists them");
     options.limits = {{"angle_max", 1}};
-    EXPECT_EQ(faultOf([&] {
-                  compare({2, 2, four}, {2, 2, four}, options);
-              }),
-              "angle_max: is not defined for colours");
+    EXPECT_EQ(fault(square, square, options), "angle_max: is not defined for colours");
     const std::vector<std::uint8_t> none(4, 0), three(3, 1);
     options.limits.clear();
     options.covered = none;
-    EXPECT_EQ(faultOf([&] {
-                  compare({2, 2, four}, {2, 2, four}, options);
-              }),
-              "no pixel counts: Options::covered is 0 everywhere");
+    EXPECT_EQ(fault(square, square, options), "no pixel counts: Options::covered is 0 everywhere");
     options.covered = three;
-    EXPECT_EQ(faultOf([&] {
-                  compare({2, 2, four}, {2, 2, four}, options);
-              }),
+    EXPECT_EQ(fault(square, square, options),
               "Options::covered has 3 values for 4 pixels; give one per pixel");
     options.covered = {};
     options.pixels_per_degree = 0;
-    EXPECT_NE(faultOf([&] { compare({2, 2, four}, {2, 2, four}, options); }), "");
+    EXPECT_NE(fault(square, square, options), "");
 }
 
 TEST(Library, EveryFigureHasAMeaning) {

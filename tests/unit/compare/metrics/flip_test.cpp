@@ -324,7 +324,7 @@ TEST(FlipPowers, AreWithinTheirStatedErrors) {
 // Keeps the reference's data for all, some or none of the exposures; with holes in the reference only, and
 // in a test too.
 TEST(Flip, AgainstOneReferenceIsTheSameBitForBit) {
-    constexpr int width = 300, height = 140;
+    constexpr int width = 150, height = 70;
     for (const bool holed : {false, true}) {
         Image reference = noise(width, height, 1, 0, 4);
         if (holed) set(reference, 40, 30, nan);

@@ -80,9 +80,9 @@ TEST(ReferenceAnisotropy, OnlyTheDirectionsPartInTheSurfaceCounts) {
 
 TEST(ReferenceAnisotropy, TheAlbedoIsTheBrdfsIntegral) {
     for (const double roughness : {0.3, 0.6})
-        for (const double strength : {0.3, 0.7, 1.0})
-            for (const double angle : {0.0, 0.9, 1.5})
-                for (const double azimuth : {0.0, 0.5, pi / 2}) {
+        for (const double strength : {0.3, 1.0})
+            for (const double angle : {0.9, 1.5})
+                for (const double azimuth : {0.0, 0.5}) {
                     Surface s = stretchedMirror(roughness, strength, angle, azimuth);
                     s.metallic = 0.25;
                     s.albedo = glm::dvec3(0.9);
@@ -98,22 +98,20 @@ TEST(ReferenceAnisotropy, TheAlbedoIsTheBrdfsIntegral) {
 // The estimator's mean is the albedo only if directions are distributed as their density says.
 TEST(ReferenceAnisotropy, SamplesFollowTheirDensity) {
     for (const double roughness : {0.045, 0.4})
-        for (const double angle : {0.0, 1.4})
-            for (const double azimuth : {0.0, 0.7, pi / 2}) {
-                const Surface s = stretchedMirror(roughness, 0.6, angle, azimuth);
-                const Brdf brdf(s);
-                const LobeSampler lobe(brdf);
-                constexpr int out = 1200, around = 200;  // weights grow towards the lobe's outside
-                double sum = 0;
-                for (int i = 0; i < out; ++i)
-                    for (int j = 0; j < around; ++j) {
-                        const glm::dvec3 l = lobe({(i + 0.5) / out, (j + 0.5) / around});
-                        const double density = lobe.density(l);
-                        if (density > 0) sum += brdf.lobe(l).g / density;
-                    }
-                EXPECT_NEAR(sum / (out * around), specularAlbedo(s).g, 5e-4)
-                    << roughness << " " << angle << " " << azimuth;
-            }
+        for (const double angle : {0.0, 1.4}) {
+            const Surface s = stretchedMirror(roughness, 0.6, angle, 0.7);
+            const Brdf brdf(s);
+            const LobeSampler lobe(brdf);
+            constexpr int out = 1200, around = 200;  // weights grow towards the lobe's outside
+            double sum = 0;
+            for (int i = 0; i < out; ++i)
+                for (int j = 0; j < around; ++j) {
+                    const glm::dvec3 l = lobe({(i + 0.5) / out, (j + 0.5) / around});
+                    const double density = lobe.density(l);
+                    if (density > 0) sum += brdf.lobe(l).g / density;
+                }
+            EXPECT_NEAR(sum / (out * around), specularAlbedo(s).g, 5e-4) << roughness << " " << angle;
+        }
 }
 
 TEST(ReferenceAnisotropy, NothingReflectsMoreThanThereIs) {
@@ -180,9 +178,10 @@ TEST(ReferenceAnisotropy, UnderAnEvenSkyTheSplitSumIsOffByTheAlbedo) {
 // look up light on the viewer's own side.
 TEST(ReferenceAnisotropy, TheSplitSumLooksAboutTheBentNormal) {
     Environment sky{"sky", Image(64, 32, 3, 0.0f)};
+    const EnvironmentLight black(sky, 1);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x)
-            if (EnvironmentLight(sky, 1).directionOf(x + 0.5, y + 0.5).x > 0)
+            if (black.directionOf(x + 0.5, y + 0.5).x > 0)
                 for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = 1;
     const Surface s = stretchedMirror(0.1, 0.5, 1, 0), across = stretchedMirror(0.1, 0.5, 1, pi / 2);
     const Shading shading = withCosts(sky, s);

@@ -165,14 +165,8 @@ TEST(ReferenceKey, IsOfTheImageAndItsLight) {
         {"kind", [](Asked& a) { a.light().kind = LightKind::spot; }},
         {"two-sided", [](Asked& a) { a.light().two_sided = true; }},
         {"position", [](Asked& a) { a.light().position.y += 1e-9; }},
-        {"direction",
-         [](Asked& a) {
-             a.light().direction = {0, 1, 0};
-         }},
-        {"axis",
-         [](Asked& a) {
-             a.light().axis = {0, 1, 0};
-         }},
+        {"direction", [](Asked& a) { a.light().direction = glm::dvec3(0, 1, 0); }},
+        {"axis", [](Asked& a) { a.light().axis = glm::dvec3(0, 1, 0); }},
     };
     expectKeysOfTheirOwn(changes);
 }
@@ -211,10 +205,7 @@ TEST(ReferenceKey, IsOfEveryMaterialAndTexture) {
 TEST(ReferenceKey, IsOfTheGeometryAndItsPose) {
     const Change changes[] = {
         {"positions", [](Asked& a) { a.primitive().positions[3].z = 0.1f; }},
-        {"normals",
-         [](Asked& a) {
-             a.primitive().normals[3] = {0, 1, 0};
-         }},
+        {"normals", [](Asked& a) { a.primitive().normals[3] = glm::vec3(0, 1, 0); }},
         {"tangents", [](Asked& a) { a.primitive().tangents[3].w = -1; }},
         {"first coordinates", [](Asked& a) { a.primitive().texcoords[0][3].x = 0.5f; }},
         {"second coordinates", [](Asked& a) { a.primitive().texcoords[1][3].x = 0.5f; }},
@@ -228,17 +219,11 @@ TEST(ReferenceKey, IsOfTheGeometryAndItsPose) {
         {"targets' normals", [](Asked& a) { a.primitive().targets[0].normals[3].x = 1; }},
         {"targets' tangents", [](Asked& a) { a.primitive().targets[0].tangents[3].x = 1; }},
         {"targets' first coordinates",
-         [](Asked& a) {
-             a.primitive().targets[0].texcoords[0] = {{1, 0}};
-         }},
+         [](Asked& a) { a.primitive().targets[0].texcoords[0].emplace_back(1.0f, 0.0f); }},
         {"targets' second coordinates",
-         [](Asked& a) {
-             a.primitive().targets[0].texcoords[1] = {{1, 0}};
-         }},
+         [](Asked& a) { a.primitive().targets[0].texcoords[1].emplace_back(1.0f, 0.0f); }},
         {"targets' colours",
-         [](Asked& a) {
-             a.primitive().targets[0].colors = {{1, 0, 0, 0}};
-         }},
+         [](Asked& a) { a.primitive().targets[0].colors.emplace_back(1.0f, 0.0f, 0.0f, 0.0f); }},
         {"tangents made anew", [](Asked& a) { a.primitive().tangent_groups.corners = {1}; }},
         {"place", [](Asked& a) { a.pose.instances[0].world_from_object[3].x = 1e-9; }},
         {"skin", [](Asked& a) { a.pose.instances[0].skin = 0; }},

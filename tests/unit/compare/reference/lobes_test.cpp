@@ -141,29 +141,28 @@ Light ceilingRect(const glm::dvec4& e) {
 }
 
 // The mirror direction hits the light's centre, a corner or an edge, or misses it. Sizes are exact in
-// float32.
+// float32. Half a metal: its light is the mean of a metal's and a dielectric's.
 TEST(ReferenceLobes, ARectangleInALobeOfAnyWidth) {
     for (const double roughness : {0.045, 0.1, 0.3, 1.0})
-        for (const double angle : {0.0, 0.6, 1.2})
-            for (const double metallic : {0.0, 1.0}) {
-                const Surface s = plastic(roughness, angle, metallic);
-                const glm::dvec2 m{-std::tan(angle), 0};
-                for (const glm::dvec4& location : {glm::dvec4(-1, 1, -1, 1),
-                                                   {-4, 0.0625, -0.03125, 2},
-                                                   {0, 8, -4, 4},
-                                                   {0.125, 1, 0.25, 1},
-                                                   {-0.015625, 0.5, -0.015625, 0.0625}}) {
-                    // The light's float32 centre is off by 1e-7 / alpha, relative to the narrowest lobe.
-                    Light light = ceilingRect(location);
-                    light.position.x += m.x;
-                    const glm::dvec4 e = location + glm::dvec4(m.x, m.x, 0, 0);
-                    const double expected = ceilingLight(s, e, m);
-                    const Shading shading = shadedBy(std::span(&light, 1), s);
-                    EXPECT_NEAR(red(shading.reflected), expected, 1e-6 * expected)
-                        << roughness << " " << angle << " " << metallic << " " << location.x;
-                    EXPECT_LE(shading.uncertainty, 1e-6 * expected);
-                }
+        for (const double angle : {0.0, 0.6, 1.2}) {
+            const Surface s = plastic(roughness, angle, 0.5);
+            const glm::dvec2 m{-std::tan(angle), 0};
+            for (const glm::dvec4& location : {glm::dvec4(-1, 1, -1, 1),
+                                               {-4, 0.0625, -0.03125, 2},
+                                               {0, 8, -4, 4},
+                                               {0.125, 1, 0.25, 1},
+                                               {-0.015625, 0.5, -0.015625, 0.0625}}) {
+                // The light's float32 centre is off by 1e-7 / alpha, relative to the narrowest lobe.
+                Light light = ceilingRect(location);
+                light.position.x += m.x;
+                const glm::dvec4 e = location + glm::dvec4(m.x, m.x, 0, 0);
+                const double expected = ceilingLight(s, e, m);
+                const Shading shading = shadedBy(std::span(&light, 1), s);
+                EXPECT_NEAR(red(shading.reflected), expected, 1e-6 * expected)
+                    << roughness << " " << angle << " " << location.x;
+                EXPECT_LE(shading.uncertainty, 1e-6 * expected);
             }
+        }
 }
 
 // At a grazing angle the lobe becomes a streak, cut by the plane's horizon.

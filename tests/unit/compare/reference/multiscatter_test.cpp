@@ -109,10 +109,10 @@ TEST(ReferenceMultiscatter, DirectLightSumsToTheSame) {
 TEST(ReferenceMultiscatter, AFilmGainsNothingInAFurnace) {
     for (const Multiscatter kind : {Multiscatter::energy, Multiscatter::fdez})
         for (const double roughness : {0.1, 0.5, 1.0})
-            for (const double angle : {0.0, 0.8, 1.4})
+            for (const double angle : {0.0, 1.4})
                 for (const double weight : {0.25, 1.0})
-                    for (const double index : {1.1, 1.6, 2.5})
-                        for (const double thickness : {200.0, 300.0, 400.0}) {
+                    for (const double index : {1.1, 2.5})
+                        for (const double thickness : {200.0, 400.0}) {
                             Surface s = mirror(roughness, angle);
                             s.metallic = 0;
                             s.dielectric_f0 = glm::dvec3(0.04);

@@ -38,8 +38,8 @@ TEST(ReferenceSheen, TheLobeIsEstevezAndKullas) {
 }
 
 TEST(ReferenceSheen, TheAlbedoIsADenseSum) {
-    for (const double roughness : {0.045, 0.1, 0.3, 0.6, 1.0})
-        for (const double cosine : {1e-4, 0.01, 0.2, 0.7, 1.0})
+    for (const double roughness : {0.045, 0.3, 1.0})
+        for (const double cosine : {1e-4, 0.2, 1.0})
             EXPECT_NEAR(sheenAlbedo(roughness, cosine), denseSheenAlbedo(roughness, cosine), 2e-5)
                 << roughness << " " << cosine;
     EXPECT_EQ(sheenAlbedo(0, 0.1), sheenAlbedo(0.045, 0.1));
@@ -118,11 +118,12 @@ TEST(ReferenceSheen, AnEvenSkyCostsNothing) {
 // The paths spread the sheen's light over the hemisphere, but it is lit from the viewer's side.
 TEST(ReferenceSheen, LightFromOneSideCostsTheDifference) {
     Environment sky{"sky", Image(64, 32, 3, 0.0f)};
+    const EnvironmentLight black(sky, 1);
     double irradiance = 0;  // over pi
     const glm::dvec3 normal(0, 0, 1);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x) {
-            const glm::dvec3 d = EnvironmentLight(sky, 1).directionOf(x + 0.5, y + 0.5);
+            const glm::dvec3 d = black.directionOf(x + 0.5, y + 0.5);
             if (d.x < 0.3) continue;
             for (int c = 0; c < 3; ++c) sky.radiance.at(x, y, c) = 1;
             irradiance += std::max(glm::dot(d, normal), 0.0) * (2 * pi / 64) *

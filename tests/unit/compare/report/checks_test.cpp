@@ -2,7 +2,6 @@
 // Visual checks in the report.
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
-#include "tests/support/files.h"
 #include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
@@ -14,7 +13,6 @@
 namespace diptych {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 // The only covered pixel of the frames, (1, 2), and an unlit one.
@@ -28,11 +26,6 @@ std::vector<FeatureChecks> someChecks() {
             {"alpha masks", 900, {{"cut out", "leaf", "material 2 \"leaf\", mesh 2", darkBox, 2}}}};
 }
 
-std::string pageOf(const Report& report, const ReportOptions& options = {}) {
-    const fs::path out = folder() / "report";
-    writeReport(report, out, options);
-    return contentsOf(out / "index.html");
-}
 // All texts between `before` and the next quote.
 std::vector<std::string> quotedAfter(const std::string& text, const std::string& before) {
     std::vector<std::string> all;
@@ -57,8 +50,7 @@ std::string linkOf(const std::string& page, const std::string& name) {
 }
 
 TEST(ReportChecks, JsonTellsEachAndHowManyThereAre) {
-    const Json json =
-        Json::parse(writeReport(reportOf(bothFrames(), {someChecks()}), folder() / "report", {}));
+    const Json json = Json::parse(reportJson(reportOf(bothFrames(), {someChecks()}), nullptr));
     const Json& comparison = json["comparisons"][0];
     ASSERT_EQ(comparison["marks"].size(), 3u);
     EXPECT_EQ(comparison["marks"][2], (Json{{"feature", "alpha masks"},
@@ -96,11 +88,9 @@ TEST(ReportChecks, WithoutLitAnotherChannelIsShown) {
 }
 
 TEST(ReportChecks, NoImageIsEncodedOrNamedTwice) {
-    const fs::path out = folder() / "report";
-    writeReport(reportOf(bothFrames(), {someChecks()}), out / "with", {});
-    writeReport(reportOf(bothFrames()), out / "without", {});
-    EXPECT_EQ(namesIn(out / "with"), namesIn(out / "without"));
-    EXPECT_EQ(contentsOf(out / "without" / "index.html").find("To check by eye"), std::string::npos);
+    const Report with = reportOf(bothFrames(), {someChecks()}), without = reportOf(bothFrames());
+    EXPECT_EQ(layoutOf(with, {}).files(), layoutOf(without, {}).files());
+    EXPECT_EQ(pageOf(without).find("To check by eye"), std::string::npos);
 }
 
 TEST(ReportChecks, WithoutImagesPlacesAreNamed) {
@@ -127,12 +117,10 @@ TEST(ReportChecks, NamesOfFilesAreEscaped) {
     VisualCheck& check = checks[0].checks[0];
     check.name = check.where = check.what = "\"><script>alert(1)</script>&'\x01\xff";
     const Report report = reportOf(bothFrames(), {checks});
-    const fs::path out = folder() / "escaped";
-    writeReport(report, out, {});
-    const std::string page = contentsOf(out / "index.html");
+    const std::string page = pageOf(report);
     EXPECT_EQ(markupFault(page, htmlVoids), "");
     EXPECT_EQ(page.find("<script>alert"), std::string::npos);
-    EXPECT_TRUE(Json::accept(contentsOf(out / "report.json")));
+    EXPECT_TRUE(Json::accept(reportJson(report, nullptr)));
 }
 
 TEST(ReportChecks, OneLineOnATerminal) {

@@ -122,7 +122,7 @@ TEST(ReportErrors, ThePageTellsThem) {
 
 // The card of roughness evaluated by a rule; one pixel is off by 0.25. `shown` is the FLIP map.
 std::string evaluatedCard(const Criterion& criterion, const Image* shown = nullptr) {
-    std::vector<Frame> frames = bothFrames();
+    std::vector<Frame> frames = withOnly({Channel::roughness, Channel::material_id}, bothFrames());
     frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
     Report report = reportOf(std::move(frames));
     for (ChannelDiff& channel : report.comparisons[0].channels) {

@@ -62,12 +62,9 @@ CardImages cardIn(const std::string& page, const fs::path& folder, const std::st
 
 // In failing channels the baseline is 0.25 everywhere and the other is 0.75; in a second scene 0 and 1.
 std::vector<Frame> greyFrames(float deferred, float forward, const std::string& scene) {
-    std::vector<Frame> frames = bothFrames(scene);
+    std::vector<Frame> frames =
+        withOnly({Channel::roughness, Channel::metallic, Channel::material_id}, bothFrames(scene));
     for (Frame& frame : frames) {
-        std::erase_if(frame.channels, [](const auto& channel) {
-            const std::string_view name = debugMode(channel.first).name;
-            return name != "roughness" && name != "metallic" && name != "material_id";
-        });
         const float value = frame.settings.path == Path::deferred ? deferred : forward;
         for (auto& [mode, image] : frame.channels)
             std::ranges::fill(image.data, debugMode(mode).kind == ChannelKind::id ? 3.0f : value);

@@ -143,9 +143,7 @@ Report failingOfTwo() {
 }
 
 TEST(ReportJunit, KeepsTheRules) {
-    const fs::path out = folder() / "report";
-    writeReport(failingOfTwo(), out, {});
-    const Element root = rootOf(contentsOf(out / "junit.xml"));
+    const Element root = rootOf(junitOf(failingOfTwo()));
     EXPECT_EQ(faultsOf(root), std::vector<std::string>{});
     ASSERT_EQ(root.all("testsuite").size(), 2u);
     EXPECT_EQ(root.attributes.at("failures"), "2");
@@ -190,9 +188,7 @@ TEST(ReportJunit, TheRulesFindFaults) {
 
 // A channel's deciding metric and limit are in its case, whether it passes or not.
 TEST(ReportJunit, EveryEvaluatedChannelSaysWhatWasMeasured) {
-    const fs::path here = folder();
-    writeReport(failingOfTwo(), here / "report", {});
-    const Element root = rootOf(contentsOf(here / "report" / "junit.xml"));
+    const Element root = rootOf(junitOf(failingOfTwo()));
     int passing = 0, failing = 0;
     for (const Element* suite : root.all("testsuite"))
         for (const Element* test : suite->all("testcase")) {

@@ -99,9 +99,7 @@ TEST(PrintedMetrics, TheTableHasThemUnderTheirHeads) {
 
 TEST(PrintedMetrics, ThePageHasThemBesideTheirNames) {
     const Report report = spreadReport();
-    const std::filesystem::path out = folder() / "report";
-    writeReport(report, out, {});
-    const std::string page = contentsOf(out / "index.html");
+    const std::string page = pageOf(report);
     const Metrics expected = printedMetrics();
     const std::string card = page.substr(page.find("id=\"c0-roughness\""));
     for (const auto& [name, metric] :
@@ -131,9 +129,7 @@ TEST(PrintedMetrics, ThePageHasThemBesideTheirNames) {
 }
 
 TEST(PrintedMetrics, JunitNamesThem) {
-    const std::filesystem::path out = folder() / "report";
-    writeReport(spreadReport(), out, {});
-    const std::string junit = contentsOf(out / "junit.xml");
+    const std::string junit = junitOf(spreadReport());
     const Metrics expected = printedMetrics();
     EXPECT_NE(
         junit.find(fmt::format("max {} mean {} p99.9 {} (absolute), worst at {},{}",
@@ -163,9 +159,7 @@ TEST(PrintedMetrics, OfBothPathsAgainstTheReferenceStandInTheirColumns) {
         between.push_back(0.25 * stepOf(i) / by);
     }
     const auto json = nlohmann::json::parse(reportJson(report, nullptr))["truth"][0]["channels"][0];
-    const std::filesystem::path out = folder() / "report";
-    writeReport(report, out, {});
-    const std::string page = contentsOf(out / "index.html");
+    const std::string page = pageOf(report);
     const std::string table = page.substr(page.find(">errors</th>"));
     for (const auto& [name, errors] :
          {std::pair{"deferred", deferred}, {"forward_plus", forward}, {"between", between}}) {

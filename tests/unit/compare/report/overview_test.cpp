@@ -2,7 +2,6 @@
 // The page's table of channels, and the texts around its index.
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
-#include "tests/support/files.h"
 #include "tests/support/report_builder.h"
 
 #include <fmt/format.h>
@@ -20,10 +19,8 @@ std::string rowOf(const std::string& page, const std::string& channel) {
 TEST(ReportOverview, SaysWhatAChannelIsEvaluatedBy) {
     std::vector<Frame> frames = bothFrames();
     frames[1].channels[Channel::roughness].at(1, 2) = 0.75f;
-    const std::filesystem::path out = folder() / "report";
     Report report = reportOf(std::move(frames));
-    writeReport(report, out, {});
-    const std::string page = contentsOf(out / "index.html");
+    const std::string page = pageOf(report);
     const std::string roughness = rowOf(page, "roughness"), lit = rowOf(page, "lit");
     // A narrow page keeps these three cells and the fraction of failing pixels.
     EXPECT_NE(roughness.find(
@@ -41,8 +38,7 @@ TEST(ReportOverview, SaysWhatAChannelIsEvaluatedBy) {
     for (ChannelDiff& channel : report.comparisons[0].channels)
         if (channel.mode->name == "roughness")
             channel.criterion = {.metric = "mean", .measured = 0.125, .limit = 0.5};
-    writeReport(report, out, {});
-    EXPECT_NE(rowOf(contentsOf(out / "index.html"), "roughness")
+    EXPECT_NE(rowOf(pageOf(report), "roughness")
                   .find("<td class=\"soft by\">mean</td><td class=\"n\">0.125</td><td class=\"n\">0.5</td>"),
               std::string::npos);
     EXPECT_NE(page.find("<p>FAIL: roughness beyond tolerance</p>"), std::string::npos)
@@ -78,9 +74,7 @@ TEST(ReportOverview, ImagesOfFailuresAndOfLitLead) {
 TEST(ReportOverview, ColoursTheSettingsThatDiffer) {
     Report report = reportOf(bothFrames());
     report.frames[1].settings.light_cutoff = 0.25f;
-    const std::filesystem::path out = folder() / "report";
-    writeReport(report, out, {});
-    const std::string page = contentsOf(out / "index.html");
+    const std::string page = pageOf(report);
     for (const char* key : {"path", "light_<wbr>cutoff"})
         EXPECT_NE(page.find(std::string("<tr class=\"differs\"><td>") + key + "</td>"), std::string::npos)
             << key;
@@ -98,9 +92,7 @@ TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     frames[4].notes = {"of all", "took 2 s"};
     Report report = reportOf(std::move(frames));
     report.errors = {{"a/bad.glb", "a/bad.glb: is cut short"}};
-    const std::filesystem::path out = folder() / "report";
-    writeReport(report, out, {});
-    const std::string page = contentsOf(out / "index.html");
+    const std::string page = pageOf(report);
     EXPECT_NE(page.find("<li><bdi>3 scenes: </bdi><bdi>of all</bdi></li>"), std::string::npos);
     EXPECT_NE(page.find("<li><bdi>y.glb, z.glb, with different numbers: </bdi><bdi>took 1 s</bdi></li>"),
               std::string::npos);
@@ -110,25 +102,17 @@ TEST(ReportOverview, NotesAndErrorsNameTheirScenes) {
     EXPECT_NE(page.find("<p>ERROR: 1 scene could not be rendered: a/bad.glb; pass"), std::string::npos);
 }
 
-TEST(ReportOverview, ErrorsThatAreAnglesHaveAUnit) {
-    const std::filesystem::path out = folder() / "report";
-    writeReport(reportOf(bothFrames()), out, {});
-    const std::string page = contentsOf(out / "index.html");
+// Angles have a unit. The tables have more rows than the verdict counts.
+TEST(ReportOverview, AngularErrorsHaveAUnitAndTheVerdictSaysWhatItLeavesOut) {
+    const Report report = reportOf(bothFrames());
+    const std::string page = pageOf(report);
     EXPECT_NE(page.find(">normals</a>"), std::string::npos);
     EXPECT_NE(page.find("<td class=\"optional soft\">angular, \u00b0</td>"), std::string::npos);
     EXPECT_NE(page.find("<td class=\"optional soft\">relative</td>"), std::string::npos);
-}
-
-// The tables have more rows than the verdict counts.
-TEST(ReportOverview, TheVerdictSaysHowManyChannelsItLeavesOut) {
-    const Report report = reportOf(bothFrames());
     const auto alone =
         std::ranges::count(report.comparisons[0].channels, Verdict::forward_only, &ChannelDiff::verdict);
     ASSERT_GT(alone, 1);
-    const std::filesystem::path out = folder() / "report";
-    writeReport(report, out, {});
-    EXPECT_NE(contentsOf(out / "index.html")
-                  .find(fmt::format(" are within tolerance ({} more exist on one side only)", alone)),
+    EXPECT_NE(page.find(fmt::format(" are within tolerance ({} more exist on one side only)", alone)),
               std::string::npos);
 }
 
@@ -139,11 +123,8 @@ TEST(ReportOverview, AnImageThatOneFolderLacksFailsTheReport) {
     ASSERT_TRUE(report.passed());
     for (const bool lacking : {false, true}) {
         if (lacking) report.failures = {{"only_a.exr", "is in A only"}};
-        const std::filesystem::path out = folder() / (lacking ? "lacking" : "whole");
-        writeReport(report, out, {});
         EXPECT_EQ(report.passed(), !lacking);
-        const std::string page = contentsOf(out / "index.html"), json = contentsOf(out / "report.json"),
-                          junit = contentsOf(out / "junit.xml");
+        const std::string page = pageOf(report), json = reportJson(report, nullptr), junit = junitOf(report);
         EXPECT_EQ(countOf(page, "<h1><span class=\"verdict fail\">fail</span>"), lacking);
         EXPECT_EQ(countOf(page, "<p>FAIL: only_a.exr: is in A only</p>"), lacking);
         EXPECT_EQ(countOf(page, "<li>only_a.exr: is in A only</li>"), lacking);

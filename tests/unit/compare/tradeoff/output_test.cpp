@@ -219,10 +219,7 @@ TEST(TradeoffOutput, PlotsAndPageAreWellFormed) {
             EXPECT_EQ(markupFault(svg), "");
             EXPECT_EQ(svg.find("nan"), std::string::npos);
             EXPECT_NE(svg.find("xmlns=\"http://www.w3.org/2000/svg\""), std::string::npos);
-            std::size_t points = 0;
-            for (std::size_t i = svg.find("data-row"); i != svg.npos; i = svg.find("data-row", i + 1))
-                ++points;
-            EXPECT_EQ(points, path ? 3u : 4u);
+            EXPECT_EQ(countOf(svg, "data-row"), path ? 3u : 4u);
             EXPECT_NE(svg.find("\u221e"), std::string::npos) << "an infinite error has its lane";
             EXPECT_EQ(svg.find(">0</text>") != std::string::npos, !path) << "and an error of 0";
         }

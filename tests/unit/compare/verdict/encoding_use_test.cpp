@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -96,45 +97,32 @@ TEST(EncodingUse, IsTheErrorOverTheBoundOfTheValue) {
         }
 }
 
-// A step of (n - 1) / (n + 1) changes a large index more.
-TEST(EncodingUse, AFilmsIndexIsEvaluatedAtItsValue) {
-    for (const double n : {1.0, 1.3, 2.5}) {
-        PackedPair p;
-        const double bound = (n + 1) * (n + 1) / 2 * 0.5 / 510;
-        *p.own(Channel::iridescence_ior) = static_cast<float>(n);
-        for (const double fraction : {0.9, 1.1}) {
-            *p.read(Channel::iridescence_ior) = static_cast<float>(n + fraction * bound);
-            EXPECT_EQ(p.use(Channel::iridescence_ior)->beyond, fraction > 1 ? 1u : 0u)
-                << n << " " << fraction;
-        }
-    }
-}
-
-TEST(EncodingUse, AFilmsThicknessIsEvaluatedRelativeToIt) {
-    for (const double thickness : {1e-6, 0.5, 400.0}) {
-        PackedPair p;
-        const double bound = std::max(thickness * 0x1p-11, 0x1p-25);
-        *p.own(Channel::iridescence_thickness) = static_cast<float>(thickness);
-        for (const double fraction : {0.9, 1.1}) {
-            *p.read(Channel::iridescence_thickness) = static_cast<float>(thickness + fraction * bound);
-            EXPECT_EQ(p.use(Channel::iridescence_thickness)->beyond, fraction > 1 ? 1u : 0u)
-                << thickness << " " << fraction;
-        }
-    }
-}
-
-// A sheen's colour is stored as an albedo is.
-TEST(EncodingUse, ADarkSheenHasANarrowBound) {
+// A step of (n - 1) / (n + 1) changes a large index more; a half's rounding is relative; a sheen's colour is
+// stored as an albedo is.
+TEST(EncodingUse, LayersAreEvaluatedAtTheirValue) {
+    struct Row {
+        Channel mode;
+        int component;
+        std::vector<double> values;
+        std::function<double(double)> bound;
+    };
     constexpr double h = 0.5 / 255;
-    for (const double x : {0.01, 0.81}) {
-        PackedPair p;
-        const double bound = h * (2 * std::sqrt(x) + h);
-        p.own(Channel::sheen_color)[2] = static_cast<float>(x);
-        for (const double fraction : {0.9, 1.1}) {
-            p.read(Channel::sheen_color)[2] = static_cast<float>(x + fraction * bound);
-            EXPECT_EQ(p.use(Channel::sheen_color)->beyond, fraction > 1 ? 1u : 0u) << x << " " << fraction;
-        }
-    }
+    const Row rows[] = {
+        {Channel::iridescence_ior, 0, {1.0, 1.3, 2.5}, [](double n) { return (n + 1) * (n + 1) / 4 / 510; }},
+        {Channel::iridescence_thickness,
+         0,
+         {1e-6, 0.5, 400.0},
+         [](double t) { return std::max(t * 0x1p-11, 0x1p-25); }},
+        {Channel::sheen_color, 2, {0.01, 0.81}, [](double x) { return h * (2 * std::sqrt(x) + h); }}};
+    for (const Row& row : rows)
+        for (const double value : row.values)
+            for (const double fraction : {0.9, 1.1}) {
+                PackedPair p;
+                p.own(row.mode)[row.component] = static_cast<float>(value);
+                p.read(row.mode)[row.component] = static_cast<float>(value + fraction * row.bound(value));
+                EXPECT_EQ(p.use(row.mode)->beyond, fraction > 1 ? 1u : 0u)
+                    << debugMode(row.mode).name << " " << value << " " << fraction;
+            }
 }
 
 // A line's decoded direction may have either sign.

@@ -315,36 +315,24 @@ TEST(Footprint, TexelsOfASheenAndAFilmAreGranted) {
         }
 }
 
-// A code of a thickness texture is 1/255 of the thicknesses among which it chooses.
+// A code of a thickness texture is 1/255 of the thicknesses among which it chooses: of a film, or of the
+// volume's that it scales.
 TEST(Footprint, TexelsOfAThicknessAreGrantedByItsRange) {
     CompareOptions options;
     options.texels = exactTexels();
-    Requirements needs;
-    std::vector<Frame> frames = evenFrames();
-    for (Frame& frame : frames)
-        std::ranges::fill(channelIn(frame, Channel::iridescence_thickness).data, 400.0f);
-    for (float& v : channelIn(frames[1], Channel::iridescence_thickness).data) v += 0.9f * 300 / 255;
-    for (const float range : {300.0f, 200.0f, 0.0f}) {
-        needs.film_thickness_range = range;
-        EXPECT_EQ(evaluated(frames, Channel::iridescence_thickness, options, needs).verdict,
-                  range == 300 ? Verdict::pass : Verdict::fail)
-            << range;
-    }
-}
-
-// A code of a volume's thickness texture is 1/255 of the thickness that it scales.
-TEST(Footprint, TexelsOfAVolumeAreGrantedByItsThickness) {
-    CompareOptions options;
-    options.texels = exactTexels();
-    Requirements needs;
-    std::vector<Frame> frames = evenFrames();
-    for (float& v : channelIn(frames[1], Channel::transmission_thickness).data) v += 0.9f * 0.3f / 255;
-    for (const float range : {0.3f, 0.2f, 0.0f}) {
-        needs.volume_thickness_range = range;
-        EXPECT_EQ(evaluated(frames, Channel::transmission_thickness, options, needs).verdict,
-                  range == 0.3f ? Verdict::pass : Verdict::fail)
-            << range;
-    }
+    for (const auto& [mode, range, thickness] : {std::tuple{Channel::iridescence_thickness, 300.0f, 400.0f},
+                                                 {Channel::transmission_thickness, 0.3f, 0.5f}})
+        for (const float part : {1.0f, 0.6f, 0.0f}) {
+            std::vector<Frame> frames = evenFrames();
+            for (Frame& frame : frames) std::ranges::fill(channelIn(frame, mode).data, thickness);
+            for (float& v : channelIn(frames[1], mode).data) v += 0.9f * range / 255;
+            Requirements needs;
+            (mode == Channel::iridescence_thickness ? needs.film_thickness_range
+                                                    : needs.volume_thickness_range) = part * range;
+            EXPECT_EQ(evaluated(frames, mode, options, needs).verdict,
+                      part == 1 ? Verdict::pass : Verdict::fail)
+                << debugMode(mode).name << " " << part;
+        }
 }
 
 // As images, indices above 1 must not all be white.

@@ -8,6 +8,7 @@
 #include "compare/verdict/tolerance.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/image/exr.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 #include "tests/support/frames.h"
 
@@ -209,13 +210,9 @@ TEST(Uncertainty, OfAFileThatWasChangedIsRefusedInOneLine) {
         for (const auto& [name, value] : whole.attributes)
             attributes.push_back({name, name == "relative_uncertainty" ? wrong : value});
         writeExr(file, layers, attributes);
-        try {
-            frameFromExr(file);
-            ADD_FAILURE() << wrong;
-        } catch (const std::runtime_error& error) {
-            EXPECT_EQ(std::string(error.what()),
-                      file.string() + ": attribute relative_uncertainty \"" + wrong + "\" is not a number");
-        }
+        const std::string refusal = faultOf([&] { frameFromExr(file); });
+        EXPECT_EQ(refusal,
+                  file.string() + ": attribute relative_uncertainty \"" + wrong + "\" is not a number");
     }
 }
 

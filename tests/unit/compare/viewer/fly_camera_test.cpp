@@ -3,8 +3,8 @@
 #include "compare/viewer/window/fly_camera.h"
 
 #include "compare/frames/frame_properties.h"
-#include "shared/scene/load.h"
 #include "shared/scene/scene_view.h"
+#include "tests/support/plain_builtin.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -29,7 +29,7 @@ FrameCamera cameraAt(const glm::dvec3& eye, const glm::dvec3& target) {
 
 // The view that --camera makes of the words; the viewer draws it.
 View viewOf(const FlyCamera& camera) {
-    const Scene scene = loadScene("builtin:gallery");
+    const Scene& scene = plainBuiltin("gallery");
     ViewRequest request;
     request.camera = camera.describe();
     request.width = 64;
