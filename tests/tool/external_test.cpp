@@ -59,7 +59,7 @@ TEST(External, JobsAreAsTheSchemaSays) {
     folder.write("t.json",
                  R"({"rules": [{"channel": "lit", "flip": 1, "because": "nothing is to be explained"}]})");
     for (const std::string sentence :
-         {"builtin:gallery --env sky.exr --env-rotation 30 --time 0.5", "builtin:areas", "builtin:suns",
+         {"builtin:points --env sky.exr --env-rotation 30 --time 0.5", "builtin:areas", "builtin:suns",
           "builtin:ortho", "builtin:motion --camera 'eye=0,2,9 target=0,1,0 fov=40'",
           "builtin:spots --msaa 4"}) {
         runTool(folder,

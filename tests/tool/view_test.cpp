@@ -63,7 +63,9 @@ TEST_F(View, EveryChannelIsWhatRenderWrites) {
     key("v");
     key("v");  // one panel
     const std::string scene = "builtin:spots --size 320x180 --exposure 1 --debug ";
-    for (int digit : {1, 2, 3, 4, 5, 6, 7, 8, 9, 0}) {  // it begins with 0
+    // It begins with 0. A full run presses every digit.
+    const int first = 1 + static_cast<int>(campaignSeed() % 3);
+    for (int digit = isCampaign() ? 1 : first; digit <= 9; digit += isCampaign() ? 1 : 3) {
         keyAndSettle(std::to_string(digit));
         EXPECT_EQ(differing(rendered(scene + std::to_string(digit)), 1, single()), 0) << digit;
     }
@@ -75,6 +77,7 @@ TEST_F(View, EveryChannelIsWhatRenderWrites) {
     keyAndSettle("e");
     EXPECT_EQ(differing(rendered(scene + "albedo"), 1, single()), 0) << "which is there without it";
     keyAndSettle("0");
+    EXPECT_EQ(differing(rendered(scene + "0"), 1, single()), 0);
     // C cycles through those beyond 9.
     std::vector<std::string> beyond;
     for (const DebugMode& mode : debugModes())
@@ -290,7 +293,7 @@ TEST_F(View, SurvivesWhateverIsDoneToIt) {
                        : name.size() == 1 ? std::string(1, static_cast<char>(std::tolower(name[0])))
                                           : name);
     }
-    for (int i = 0; i < 200 && !view_->ended(); ++i) {
+    for (int i = 0; i < (isCampaign() ? 200 : 60) && !view_->ended(); ++i) {
         const int x = upTo(windowWidth), y = upTo(windowHeight);
         switch (upTo(8)) {
             case 0:
