@@ -215,7 +215,7 @@ TEST_P(WritingCommand, EndsAsAnUndisturbedOneAfterAnyKill) {
     const std::string line = shellWords(work());
     const Json whole = timeless(parsed(runTool(folder_, line)));
     const bool decided_by_times = row_.name == "choose" || row_.name == "bench";
-    const Rows rows(12);
+    const Rows rows(30);
     int killed = 0;
     for (int row = 0;; row = rows.after(row)) {
         fs::remove_all(folder_ / "o");

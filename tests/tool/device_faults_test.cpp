@@ -19,7 +19,7 @@ const std::string renderTriangle =
 // Makes one call after another fail, until the tool no longer reaches it. Returns the number of calls, as
 // Rows::atMost() expects it. `said`: the errors.
 int sweep(const std::string& function, VkResult result, const std::string& says, int step = 1,
-          const Rows& rows = Rows(slice), std::string* said = nullptr) {
+          const Rows& rows = Rows(faultStride), std::string* said = nullptr) {
     const Folder folder;
     EXPECT_EQ(runTool(folder, renderTriangle).code, 0);
     const Contents old = contentsBelow(folder / "r");
@@ -74,7 +74,7 @@ TEST(DeviceFaults, AnAllocationThatFailsIsOneLine) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, renderTriangle).code, 0);
     const Contents old = contentsBelow(folder / "r");
-    const Rows rows(slice);
+    const Rows rows(faultStride);
     int failed = 0;
     for (int row = 0, at = 1;; row = rows.after(row), at = 1 + 7 * row) {
         ASSERT_LT(at, manyCalls);
