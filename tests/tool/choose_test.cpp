@@ -15,16 +15,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A triangle of three vertices, without normals.
-constexpr const char* oneTriangle =
-    R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }],
-  "nodes": [{ "mesh": 0 }], "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
-  "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-    "min": [0, 0, 0], "max": [1, 1, 0] }],
-  "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
-  "buffers": [{ "byteLength": 36,
-    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }] })";
-
 constexpr const char* grid =
     "--grid '{\"settings\":{\"path\":[\"deferred\",\"forward_plus\"],\"gbuffer\":[\"compact\",\"full\"],"
     "\"size\":[\"1/2\",\"1/1\"]}}'";
@@ -80,7 +70,7 @@ TEST(ChooseTool, TheMostAccurateWithinATime) {
 // A candidate's error is over all cameras, as a sweep measures it.
 TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
     const Folder folder;
-    Json scene = Json::parse(oneTriangle);
+    Json scene = Json::parse(triangleGltf);
     scene["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
     for (const double distance : {2, 1}) {
         scene["scenes"][0]["nodes"].push_back(scene["nodes"].size());
@@ -118,8 +108,8 @@ TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
 // all.
 TEST(ChooseTool, OneForAllScenesOfAFolderIsWithinTheErrorInEach) {
     const Folder folder;
-    folder.write("scenes/a/one.gltf", oneTriangle);
-    folder.write("scenes/two.gltf", oneTriangle);
+    folder.write("scenes/a/one.gltf", triangleGltf);
+    folder.write("scenes/two.gltf", triangleGltf);
     const Ran ran = runTool(
         folder,
         fmt::format("choose scenes builtin:spots --size 64x36 --max-error 0.02 {} --json -o all.json", grid));
