@@ -406,7 +406,7 @@ mapfile -t scenes < <("$program" render --list-scenes --json 2>/dev/null |
 step validation 3600 validation "${scenes[@]}"
 
 step no-contraction 600 probe NoContraction
-step depth-equality 1200 probe DepthEquality
+[ "$amount" = quick ] || step depth-equality 1200 probe DepthEquality
 
 bench_size=1280x720
 case $amount in
@@ -414,9 +414,9 @@ case $amount in
         left_out+="- --quick: all scenes but two, of the matrix all but a TEST, of the probes all but a"
         left_out+=" suite, and Sponza."$'\n'
         bench_size=64x36
-        step parity 60 tests image_tests 'Builtin/BuiltinParity.FullIsBitEqual/triangle'
-        step probes 60 tests probe_tests 'Lights.*'
-        step bench-spheres 60 bench 'builtin:spheres?lights=4' --runs 1 --assign clustered
+        step parity 300 tests image_tests 'Builtin/BuiltinParity.FullIsBitEqual/triangle'
+        step probes 300 tests probe_tests 'Lights.*'
+        step bench-spheres 300 bench 'builtin:spheres?lights=4' --runs 1 --assign clustered
         ;;
     cut)
         left_out+="- A CPU device: of \`light-matrix\`, the gallery but for 257 lights, 4,096 lights, the"

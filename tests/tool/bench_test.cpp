@@ -10,12 +10,12 @@ namespace diptych {
 namespace {
 
 // A high limit, so that no frame is too slow on a busy machine.
-constexpr const char* benchGallery =
-    "bench builtin:spheres --sizes 32x24,16x12 --assign every --runs 2 --max-ms 1e6 ";
+constexpr const char* benchTriangle =
+    "bench builtin:triangle --sizes 32x24,16x12 --assign every --runs 2 --max-ms 1e6 ";
 
 TEST(Bench, LeavesTableJsonPlotAndPage) {
     const Folder folder;
-    const Ran ran = runTool(folder, std::string(benchGallery) + "--light-counts 1,4,16 --json -q -o b");
+    const Ran ran = runTool(folder, std::string(benchTriangle) + "--light-counts 1,4,16 --json -q -o b");
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err, "");
     EXPECT_EQ(ran.out, contentsOf(folder / "b/bench.json")) << "--json prints it and nothing else";
@@ -41,10 +41,10 @@ TEST(Bench, LeavesTableJsonPlotAndPage) {
     }
     EXPECT_EQ(lights, (std::set<int>{1, 4, 16}));
     // Its own folder may be replaced, a foreign one may not.
-    EXPECT_EQ(runTool(folder, std::string(benchGallery) + "--kernels off -q -o b").code, 0)
+    EXPECT_EQ(runTool(folder, std::string(benchTriangle) + "--light-counts 1 --kernels off -q -o b").code, 0)
         << "which scripts say";
     folder.write("other/note.txt", "mine");
-    EXPECT_TRUE(runTool(folder, std::string(benchGallery) + "-o other").failedOver("-o other"));
+    EXPECT_TRUE(runTool(folder, std::string(benchTriangle) + "-o other").failedOver("-o other"));
 }
 
 TEST(Bench, GrowthIsDrawnUntilItIsTooMuch) {
@@ -186,7 +186,7 @@ TEST(Bench, PlotsFitAPhone) {
     for (const std::string counts : {"1,4", "4"}) {
         const Folder folder;
         const Ran ran = runTool(folder,
-                                "bench builtin:spheres --size 16x12 --runs 1 --max-ms 1e6 -q "
+                                "bench builtin:triangle --size 16x12 --runs 1 --max-ms 1e6 --kernels off -q "
                                 "--light-counts " +
                                     counts + " -o b");
         ASSERT_EQ(ran.code, 0) << ran.err;

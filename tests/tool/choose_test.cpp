@@ -15,16 +15,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A triangle of three vertices, without normals.
-constexpr const char* oneTriangle =
-    R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }],
-  "nodes": [{ "mesh": 0 }], "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
-  "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-    "min": [0, 0, 0], "max": [1, 1, 0] }],
-  "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
-  "buffers": [{ "byteLength": 36,
-    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" }] })";
-
 constexpr const char* grid =
     "--grid '{\"settings\":{\"path\":[\"deferred\",\"forward_plus\"],\"gbuffer\":[\"compact\",\"full\"],"
     "\"size\":[\"1/2\",\"1/1\"]}}'";
@@ -80,10 +70,14 @@ TEST(ChooseTool, TheMostAccurateWithinATime) {
 // A candidate's error is over all cameras, as a sweep measures it.
 TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
     const Folder folder;
-    const std::string of =
-        "builtin:gallery --size 64x36 --json --grid "
-        "'{\"settings\":{\"path\":[\"deferred\",\"forward_plus\"],\"gbuffer\":[\"compact\",\"full\"],"
-        "\"lit_format\":[\"fp32\",\"fp16\"],\"light_kernel\":[\"scatter\",\"gather\"]}}' ";
+    Json scene = Json::parse(triangleGltf);
+    scene["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    for (const double distance : {2, 1}) {
+        scene["scenes"][0]["nodes"].push_back(scene["nodes"].size());
+        scene["nodes"].push_back({{"camera", 0}, {"translation", {0.3, 0.3, distance}}});
+    }
+    folder.write("two.gltf", scene.dump());
+    const std::string of = fmt::format("two.gltf --lights point:3 --size 32x18 --json {} ", grid);
     const Ran chosen = runTool(folder, "choose " + of + "--max-error 1");
     ASSERT_EQ(chosen.code, 0) << chosen.err;
     const Ran swept = runTool(folder, "tradeoff " + of + "--camera 0 --camera 1 --runs 1");
@@ -94,8 +88,10 @@ TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
     };
     std::map<std::string, double> errors;
     const Json sweep = Json::parse(swept.out);
-    for (const Json& row : sweep["rows"])
+    for (const Json& row : sweep["rows"]) {
         errors[wordsOf(row["settings"])] = row["errors"]["flip"].get<double>();
+        EXPECT_NE(row["cameras"][0]["errors"]["flip"], row["cameras"][1]["errors"]["flip"]);
+    }
     const Json choice = Json::parse(chosen.out);
     std::size_t compared = 0;
     for (const Json& candidate : choice["rows"]) {
@@ -112,8 +108,8 @@ TEST(ChooseTool, ErrorsAreThoseOfASweepOverAllCameras) {
 // all.
 TEST(ChooseTool, OneForAllScenesOfAFolderIsWithinTheErrorInEach) {
     const Folder folder;
-    folder.write("scenes/a/one.gltf", oneTriangle);
-    folder.write("scenes/two.gltf", oneTriangle);
+    folder.write("scenes/a/one.gltf", triangleGltf);
+    folder.write("scenes/two.gltf", triangleGltf);
     const Ran ran = runTool(
         folder,
         fmt::format("choose scenes builtin:spots --size 64x36 --max-error 0.02 {} --json -o all.json", grid));

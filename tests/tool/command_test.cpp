@@ -17,17 +17,6 @@ const std::string quick = " --size 48x27 --runs 0";
 // For tests that need any scene: the default one takes ten times as long to load and compile.
 const std::string quickTriangle = " builtin:triangle" + quick;
 
-// One triangle that faces the default camera, in one file.
-const char* const triangle = R"({
-  "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "mesh": 0 } ],
-  "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
-  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                   "min": [ 0, 0, 0 ], "max": [ 1, 1, 0 ] } ],
-  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
-  "buffers": [ { "byteLength": 36,
-    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ]
-})";
-
 // On a busy machine a command may exceed the ten seconds after which a log shows progress.
 std::string withoutProgress(const std::string& err) {
     static const std::regex line("diptych: [^\n]* % [^\n]* left\n");
@@ -62,7 +51,7 @@ TEST(Command, WhatHasNoMeaningIsNamedAndExitTwo) {
 TEST(Command, CompareNeedsSomethingToDraw) {
     const Folder folder;
     const auto changed = [](const std::string& from, const std::string& to) {
-        std::string text = triangle;
+        std::string text = triangleGltf;
         return text.replace(text.find(from), from.size(), to);
     };
     folder.write("lines.gltf", changed("\"POSITION\": 0 }", "\"POSITION\": 0 }, \"mode\": 1"));
@@ -88,7 +77,7 @@ TEST(Command, CompareNeedsSomethingToDraw) {
 // Both paths read the angle of suns but do not render their discs: the report says so for each.
 TEST(Command, DiscsOfSunsAreNoted) {
     const Folder folder;
-    folder.write("unlit.gltf", triangle);
+    folder.write("unlit.gltf", triangleGltf);
     folder.write("lights.json", R"({"lights": [{"type": "rect", "position": [0, 2, 0]},
         {"type": "directional", "angle": 0.0093, "intensity": 2}]})");
     const Image sky(4, 2, 3, 1.0f);
@@ -134,7 +123,7 @@ TEST(Command, AnEnvironmentIsGivenOrTheFiles) {
     const Folder folder;
     const Image sky(4, 2, 3, 1.0f);
     writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
-    Json cube = Json::parse(triangle);
+    Json cube = Json::parse(triangleGltf);
     writePng(folder / "face.png", {1, 1, 4, {200, 200, 200, 255}});
     cube["images"] = Json::array({{{"uri", "face.png"}}});
     cube["extensions"]["EXT_lights_image_based"]["lights"] =
@@ -261,7 +250,7 @@ TEST(Command, SettingsOfAReportReproduceIt) {
 
 TEST(Command, SeveralScenesAndCamerasMakeOneReport) {
     const Folder folder;
-    folder.write("triangle.gltf", triangle);
+    folder.write("triangle.gltf", triangleGltf);
     const Ran ran = runTool(folder,
                             "compare --json builtin:points triangle.gltf --camera 'eye=2,1,3 target=0,0,0' "
                             "--camera 'eye=3,1,2 target=0,0,0'" +
@@ -330,7 +319,7 @@ TEST(Command, CompareKnowsTheBackgroundWhateverChannelsAreAskedFor) {
 
 TEST(Command, ScenesAreFoundFromTheCallersFolder) {
     const Folder folder;
-    folder.write("scenes/triangle.gltf", triangle);
+    folder.write("scenes/triangle.gltf", triangleGltf);
     EXPECT_EQ(runTool(folder, "render scenes/triangle.gltf -o a.png" + quick).code, 0);
     const Ran inside =
         runShell(folder, "'" DIPTYCH_PROGRAM "' render triangle.gltf -o ../b.png" + quick, folder / "scenes");

@@ -59,7 +59,7 @@ TEST(External, JobsAreAsTheSchemaSays) {
     folder.write("t.json",
                  R"({"rules": [{"channel": "lit", "flip": 1, "because": "nothing is to be explained"}]})");
     for (const std::string sentence :
-         {"builtin:gallery --env sky.exr --env-rotation 30 --time 0.5", "builtin:areas", "builtin:suns",
+         {"builtin:points --env sky.exr --env-rotation 30 --time 0.5", "builtin:areas", "builtin:suns",
           "builtin:ortho", "builtin:motion --camera 'eye=0,2,9 target=0,1,0 fov=40'",
           "builtin:spots --msaa 4"}) {
         runTool(folder,
@@ -83,15 +83,7 @@ TEST(External, AJobIsAFileAndTheLastArgumentAndNamesWholePaths) {
     // keeps.
     writeRenderer(folder, "fake", {"keep", (folder / odd / "kept").string(), odd});
     fs::rename(folder / "fake.json", folder / odd / "fake.json");
-    folder.write(odd + "/tri.gltf",
-                 R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [0] } ],
-        "nodes": [ { "mesh": 0 } ], "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
-        "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                         "min": [0, 0, 0], "max": [1, 1, 0] } ],
-        "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
-        "buffers": [ { "byteLength": 36,
-            "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
-        } ] })");
+    folder.write(odd + "/tri.gltf", triangleGltf);
     ::setenv("TMPDIR", (folder / odd).c_str(), 1);
     Running tool(folder,
                  {"compare", (folder / odd / "tri.gltf").string(), "--size", "32x18", "--runs", "0", "-q",

@@ -11,8 +11,8 @@
 namespace diptych {
 
 inline constexpr int manyCalls =
-    5000;                        // more than any command of these tests makes: a sweep that reaches it hangs
-inline constexpr int slice = 6;  // tests one row in six of every table of calls; a full run tests all
+    5000;  // more than any command of these tests makes: a sweep that reaches it hangs
+inline constexpr int faultStride = 6;  // tests one row in six of every table of calls; a full run tests all
 
 // All files, folders and links below a folder, by path, with their contents.
 using Contents = std::map<std::string, std::string>;

@@ -48,12 +48,13 @@ bool isWriting(const Folder& folder) {
 TEST(Interruption, WritingLeavesAllOrNothing) {
     const Folder folder;
     int cut = 0;
-    for (int attempt = 0; attempt < 6; ++attempt) {
+    for (int attempt = 0; cut < 3; ++attempt) {  // a busy machine may let some end first
+        ASSERT_LT(attempt, 40);
         fs::remove_all(folder / "r");
         Running tool(folder,
                      {"compare", "-q", "builtin:points", "--size", "96x54", "--runs", "0", "-o", "r"});
         ASSERT_TRUE(soon([&] { return tool.ended() || isWriting(folder); }));
-        std::this_thread::sleep_for(std::chrono::milliseconds(9 * attempt));
+        std::this_thread::sleep_for(std::chrono::milliseconds(9 * (attempt % 6)));
         constexpr int signals[] = {SIGINT, SIGQUIT, SIGTERM, SIGHUP};
         if (!tool.ended()) ::kill(tool.process(), signals[attempt % 4]);
         ASSERT_TRUE(soon([&] { return tool.ended(); }));
@@ -65,15 +66,15 @@ TEST(Interruption, WritingLeavesAllOrNothing) {
         }
         EXPECT_TRUE(fs::exists(folder / "r/report.json") || !fs::exists(folder / "r")) << attempt;
     }
-    EXPECT_GT(cut, 0);
 }
 
 TEST(Interruption, AnIgnoredSignalStaysIgnored) {
     const Folder folder;
     const Ran ran = runShell(folder,
                              "trap '' HUP INT; '" DIPTYCH_PROGRAM
-                             "' render -q --size 160x90 --runs 60 -o r & sleep 0.2; "
-                             "kill -HUP $! && kill -INT $! && wait $!",
+                             "' render -v builtin:triangle --size 640x360 --runs 200 -o r 2>log & "
+                             "while kill -0 $! && ! grep -q ': time' log; do sleep 0.01; done; "
+                             "kill -HUP $!; kill -INT $!; wait $!",
                              folder.path());
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_TRUE(fs::exists(folder / "r/frame.json"));
@@ -130,9 +131,9 @@ TEST(Interruption, TwoProgramsLeaveOneWholeReport) {
                                         "--runs",  "0",  "--channels",       channel,  "-o",
                                         "r"};
     };
-    for (int attempt = 0; attempt < 10; ++attempt) {
+    for (int attempt = 0; attempt < 5; ++attempt) {
         if (attempt % 3 == 0) fs::remove_all(folder / "r");
-        if (attempt == 5) folder.write("r/mine.txt", "keep");
+        if (attempt == 1) folder.write("r/mine.txt", "keep");
         Running one(folder, words("albedo")), other(folder, words("normals"));
         EXPECT_EQ(one.wait(), 0) << one.err();
         EXPECT_EQ(other.wait(), 0) << other.err();
@@ -140,7 +141,7 @@ TEST(Interruption, TwoProgramsLeaveOneWholeReport) {
         EXPECT_TRUE(channels == "albedo" || channels == "normals") << attempt << channels;
         EXPECT_TRUE(fs::exists(folder / "r/report.json"));
         EXPECT_TRUE(leftoversIn(folder.path()).empty());
-        if (attempt == 5) {
+        if (attempt == 1) {
             EXPECT_EQ(contentsOf(folder / "r/mine.txt"), "keep");
         }
     }
@@ -185,7 +186,8 @@ TEST(Kills, LeaveNothingThatTheNextRunDoesNotRemove) {
     std::mt19937 random(campaignSeed());
     int killed = 0, left = 0, runs = 0;
     const int rounds = isCampaign() ? 500 : 3;  // of two programs, five signals in turn
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < rounds || killed == 0; ++round) {
+        ASSERT_LT(round, 600);
         constexpr int signals[] = {SIGKILL, SIGINT, SIGTERM, SIGHUP, SIGQUIT};
         const int signal = signals[round % 5];
         const auto kind = static_cast<std::size_t>(round / 5 + round) % commands.size();
@@ -235,7 +237,6 @@ TEST(Kills, LeaveNothingThatTheNextRunDoesNotRemove) {
         ::unsetenv("TMPDIR");
     else
         ::setenv("TMPDIR", own_folder.c_str(), 1);
-    EXPECT_GT(killed, 0);
     RecordProperty("programs", runs);
     RecordProperty("killed", killed);
     RecordProperty("rounds_with_leftovers", left);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page's address restores the view, and a keyboard reaches everything in few steps.
+#include "tests/support/campaign.h"
 #include "tests/tool/page_builder.h"
 
 #include <fmt/format.h>
@@ -34,16 +35,20 @@ TEST(PageAddress, LeadsBackToWhatWasSeen) {
     SKIP_WITHOUT_BROWSER();
     const Folder folder;
     const fs::path page = written(folder, reportOf(rampFrames()));
-    for (const char* actions : {
-             "key('s');",
-             "await wait(600); key('s');",  // alone, while no other change is pending
-             "pair.querySelector('input').value = 30; pair.querySelector('input').dispatchEvent(new "
-             "Event('input', { bubbles: true }));",
-             "key('+'); key('+'); key('+');",
-             "key('+'); key('+'); key('+'); for (let i = 0; i < 9; ++i) key('ArrowRight'); key('2');",
-             "card.querySelectorAll('[data-pixel]')[1].click();",
-             "card.querySelectorAll('[data-pixel]')[0].click(); key('-'); key('1');",
-         }) {
+    const std::vector<const char*> all{
+        "key('s');",
+        "await wait(600); key('s');",  // alone, while no other change is pending
+        "pair.querySelector('input').value = 30; pair.querySelector('input').dispatchEvent(new "
+        "Event('input', { bubbles: true }));",
+        "key('+'); key('+'); key('+');",
+        "key('+'); key('+'); key('+'); for (let i = 0; i < 9; ++i) key('ArrowRight'); key('2');",
+        "card.querySelectorAll('[data-pixel]')[1].click();",
+        "card.querySelectorAll('[data-pixel]')[0].click(); key('-'); key('1');",
+    };
+    const Rows rows(3);
+    for (std::size_t row = 0; row < all.size();
+         row = static_cast<std::size_t>(rows.after(static_cast<int>(row)))) {
+        const char* const actions = all[row];
         const Visit first = visit(folder, page, std::string(cardLook) + R"(
           pointer('pointerdown', panel, .3, .6, { button: 0, pointerType: 'touch' });
           pointer('pointerup', panel, .3, .6, { pointerType: 'touch' });

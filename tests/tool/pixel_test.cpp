@@ -78,7 +78,7 @@ TEST(PixelTool, LightsByObjectAreOneTerm) {
 
 TEST(PixelTool, WithAFullGBufferNoStepDiffers) {
     const Folder folder;
-    for (const std::string scene : {"builtin:gallery", "builtin:points", "builtin:areas"}) {
+    for (const std::string scene : {"builtin:points", "builtin:areas"}) {
         const std::string command = scene + " --size 64x36 --gbuffer full --pixel 30,24";
         const json breakdown = breakdownOf(folder, command);
         EXPECT_EQ(breakdown["first_difference"], nullptr) << breakdown["summary"];

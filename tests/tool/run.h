@@ -77,4 +77,15 @@ inline Ran runTool(const Folder& scratch, const std::string& arguments) {
     return runShell(scratch, "'" DIPTYCH_PROGRAM "' " + arguments, scratch.path());
 }
 
+// One triangle that faces the default camera, in one file.
+inline constexpr const char* triangleGltf = R"({
+  "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ], "nodes": [ { "mesh": 0 } ],
+  "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 } } ] } ],
+  "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [ 0, 0, 0 ], "max": [ 1, 1, 0 ] } ],
+  "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+  "buffers": [ { "byteLength": 36,
+    "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ]
+})";
+
 }  // namespace diptych

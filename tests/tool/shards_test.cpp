@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Many scenes: folders, patterns and lists; shards and their merge; resuming after an interruption.
-#include "tests/tool/running.h"
+#include "tests/support/campaign.h"
+#include "tests/tool/faults.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -72,7 +73,7 @@ TEST(ManyScenes, ShardsOfAnyNumberMakeTheWholeReport) {
     EXPECT_EQ(whole.code, 2) << "one cannot be drawn";
     EXPECT_NE(whole.out.find("5 comparisons"), std::string::npos) << whole.out;
     std::mt19937 random(3);
-    for (const int count : {1, 2, 3, 7, 16}) {
+    for (const int count : {1, 2, 7}) {  // of 7 shards, some have no scene
         std::vector<std::string> folders;
         std::size_t comparisons = 0;
         for (int i = 1; i <= count; ++i) {
@@ -193,74 +194,41 @@ TEST(ManyScenes, ATaskOfASlurmArrayTakesItsShard) {
     EXPECT_TRUE(runTool(folder, "compare --shard 1/2 --single-file").failedOver("--single-file"));
 }
 
-// Killed at random times until the report exists; finished scenes are not rendered again.
-TEST(ManyScenes, ItGoesOnAfterTwentyKills) {
+#ifdef DIPTYCH_FAULTS
+// Killed before a call that moves or removes a file, some 170 in all, and then repeated: what is finished is
+// not rendered again, and no moment leaves half a report.
+TEST(ManyScenes, AfterAKillAtAnyFileTheSameCommandMakesTheWholeReport) {
     const Folder folder;
-    const std::vector<std::string> words{"compare",
-                                         "builtin:points",
-                                         "builtin:triangle",
-                                         "builtin:spots",
-                                         "builtin:areas",
-                                         "builtin:crossed",
-                                         "builtin:lightmaps",
-                                         "--size",
-                                         "32x18",
-                                         "--runs",
-                                         "0",
-                                         "--channels",
-                                         "lit,normals,roughness",
-                                         "--shard",
-                                         "1/1",
-                                         "-o"};
-    const auto with = [&](const std::string& out) {
-        std::vector<std::string> all = words;
-        all.push_back(out);
-        return all;
-    };
-    Running undisturbed(folder, with("whole"));
-    const auto start = std::chrono::steady_clock::now();
-    ASSERT_TRUE(soon([&] { return undisturbed.ended(); }));
-    ASSERT_EQ(WEXITSTATUS(undisturbed.wait()), 0) << undisturbed.err();
-    const auto took =
-        std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - start);
-    std::mt19937 random(11);
-    std::uniform_int_distribution<long> when(0, took.count());
-    int kills = 0, resumed = 0;
-    for (int round = 0; kills < 20; ++round) {
-        ASSERT_LT(round, 80);
-        const std::string out = fmt::format("cut-{}", round);
-        std::size_t max = 0;  // scenes finished when it was killed
-        for (;;) {
-            // A run killed after its report, while removing the scenes' files, leaves the rest of them.
-            const bool ended_before = fs::exists(folder / out);
-            Running cut(folder, with(out));
-            std::this_thread::sleep_for(std::chrono::milliseconds(when(random)));
-            std::size_t there = 0;
-            if (!cut.ended()) {
-                ::kill(cut.process(), SIGKILL);
-                ++kills;
-            }
-            ASSERT_TRUE(soon([&] { return cut.ended(); }));
-            if (const std::size_t at = cut.err().find(" of 6 scenes are kept"); at != std::string::npos) {
-                ++resumed;
-                there =
-                    static_cast<std::size_t>(std::stoi(cut.err().substr(cut.err().rfind(' ', at - 1) + 1)));
-                EXPECT_TRUE(there >= max || ended_before) << "none is drawn again";
-            }
-            max = std::max(max, there);
-            if (!WIFSIGNALED(cut.wait())) {
-                EXPECT_EQ(WEXITSTATUS(cut.wait()), 0) << cut.err();
-                break;
-            }
-            EXPECT_TRUE(!fs::exists(folder / out) || fs::exists(folder / out / "report.json"))
-                << "all or nothing";
+    const std::string compare =
+        "compare builtin:points builtin:triangle builtin:spots builtin:areas" + manyHow + " --shard 1/1 -o ";
+    ASSERT_EQ(runTool(folder, compare + "whole").code, 0);
+    const Rows rows(16);
+    std::set<std::size_t> kept_scenes;
+    for (int row = 0;; row = rows.after(row)) {
+        const int at = 10 + 5 * row;
+        const std::string out = fmt::format("cut-{}", at);
+        const Faulted cut = runFaulted(folder, compare + out, {"move,remove", "kill"}, at);
+        if (cut.seen.empty()) break;
+        const bool ended_before = fs::exists(folder / out);
+        EXPECT_EQ(fs::exists(folder / out / "report.json"), ended_before) << at << ": all or nothing";
+        std::size_t kept = 0;
+        for (const auto& entry : fs::directory_iterator(folder / ("." + out + ".scenes")))
+            kept += entry.path().filename().string().ends_with("-scene.json");
+        const Ran again = runTool(folder, compare + out);
+        EXPECT_EQ(again.code, 0) << at << again.err;
+        if (!ended_before) {
+            EXPECT_EQ(again.err.find(fmt::format("{} of 4 scenes are kept", kept)) != again.err.npos,
+                      kept > 0)
+                << at << again.err;
+            kept_scenes.insert(kept);
         }
-        ASSERT_TRUE(alike(folder / "whole", folder / out));
+        ASSERT_TRUE(alike(folder / "whole", folder / out)) << at;
         for (const auto& entry : fs::directory_iterator(folder.path()))
             EXPECT_FALSE(entry.path().filename().string().starts_with("." + out)) << entry.path();
     }
-    EXPECT_GT(resumed, 3);
+    EXPECT_GE(kept_scenes.size(), 2u) << "after none and after some";
 }
+#endif
 
 TEST(ManyScenes, FoldersAndListsMeanTheirScenes) {
     const Folder folder;

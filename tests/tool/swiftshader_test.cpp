@@ -48,12 +48,12 @@ TEST_F(SwiftShader, BothPathsAgreeOnEveryBuiltinScene) {
     std::vector<std::string> names;
     for (std::string line; std::getline(list, line);) names.push_back(line.substr(0, line.find(' ')));
     ASSERT_GT(names.size(), 30u);
-    const Rows rows(9);
+    const Rows rows(18);
     std::string chosen = isCampaign() ? "" : "builtin:areas builtin:motion builtin:glass ";
     for (int row = 0; row < static_cast<int>(names.size()); row = rows.after(row))
         if (chosen.find(names[static_cast<std::size_t>(row)]) == chosen.npos)
             chosen += "'" + names[static_cast<std::size_t>(row)] + "' ";
-    const Ran ran = run("compare " + chosen + "-q --size 64x36 --runs 1 -o r" +
+    const Ran ran = run("compare " + chosen + "-q --size 32x18 --runs 1 -o r" +
                         (isCampaign() ? "" : " --channels lit,normals,light_count"));
     EXPECT_EQ(ran.code, 0) << chosen << "\n" << ran.out << ran.err;
     EXPECT_EQ(ran.err, "");
@@ -66,7 +66,7 @@ TEST_F(SwiftShader, BothPathsAgreeUnderShadowsSamplesAndAnEnvironment) {
           "builtin:points --lighting compute --assign tiled --shadows pcf --shadow-lights 2",
           "builtin:normals --env sky.exr --haze on"}) {
         const Ran ran = run(std::string("compare ") + arguments +
-                            " -q --size 64x36 --runs 1 --channels lit,normals -o r --force");
+                            " -q --size 32x18 --runs 1 --channels lit,normals -o r --force");
         EXPECT_EQ(ran.code, 0) << arguments << "\n" << ran.out << ran.err;
     }
 }
