@@ -96,10 +96,10 @@ void attachLights(const Json& file, int index, const std::vector<int>& node_inde
         });
 }
 
-Lightmap lightmapOf(const Json& material, std::size_t textures, const std::string& material_name) {
+Lightmap lightmapOf(const Json& material, std::size_t textures, const std::string& material_name,
+                    NoteList& notes) {
     Lightmap result;
     const std::string who = fmt::format("{}: extras: {}", material_name, extras_key);
-    NoteList notes("lightmaps");
     const Json* own = diptychExtras(material, {"lightmap"}, who, notes);
     if (const Json* found = own ? memberOf(*own, "lightmap") : nullptr)
         readOrNote(notes, [&] {
@@ -118,7 +118,6 @@ Lightmap lightmapOf(const Json& material, std::size_t textures, const std::strin
             const int texcoord = whole("texCoord", 1, 2);
             result = {whole("index", 0, static_cast<double>(textures)), texcoord, intensity};
         });
-    notes.moveTo(result.notes);
     return result;
 }
 

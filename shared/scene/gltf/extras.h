@@ -43,9 +43,9 @@ void attachLights(const nlohmann::json& file, int index, const std::vector<int>&
 struct Lightmap {
     int texture = -1, texcoord = 1;  // valid, or -1
     double intensity = 1;
-    std::vector<std::string> notes = {};
 };
 // `textures`: their number. `who` names the material.
-Lightmap lightmapOf(const nlohmann::json& material, std::size_t textures, const std::string& who);
+Lightmap lightmapOf(const nlohmann::json& material, std::size_t textures, const std::string& who,
+                    NoteList& notes);
 
 }  // namespace diptych::gltf

@@ -33,12 +33,13 @@ class MaterialReader {
 public:
     // `faults`: by texture; empty if it is valid. `textures`: the document's.
     MaterialReader(const Json& file, const Json& textures, Scene& scene,
-                   const std::vector<std::string>& faults, std::size_t index)
+                   const std::vector<std::string>& faults, std::size_t index, NoteList& lightmap_notes)
         : file_(file),
           textures_(textures),
           scene_(scene),
           faults_(faults),
-          who_(fmt::format("material {}", index)) {}
+          who_(fmt::format("material {}", index)),
+          lightmap_notes_(lightmap_notes) {}
 
     Material read() {
         m_.name = file_.value("name", std::string());
@@ -70,6 +71,7 @@ private:
     Scene& scene_;
     const std::vector<std::string>& faults_;
     std::string who_;
+    NoteList& lightmap_notes_;
     Material m_;
     MaterialParts parts_;
 
@@ -188,8 +190,7 @@ private:
     }
 
     void readLightmap() {
-        const Lightmap lightmap = lightmapOf(file_, textures_.size(), who_);
-        scene_.notes.insert(scene_.notes.end(), lightmap.notes.begin(), lightmap.notes.end());
+        const Lightmap lightmap = lightmapOf(file_, textures_.size(), who_, lightmap_notes_);
         if (lightmap.texture < 0) return;
         setTexture(gpu::SLOT_lightmap, "extras: diptych: lightmap", lightmap.texture, lightmap.texcoord);
         m_.lightmap_intensity = static_cast<float>(lightmap.intensity);
@@ -238,11 +239,11 @@ void readMaterials(const Model& model, Scene& scene, std::vector<int>& imageOf) 
     const std::vector<std::string> faults = readTextures(model.rest, scene);
     const std::vector<bool> drawn = drawnMaterials(model, materials.size(), scene);
     const std::set<int> moving = materialsThatMove(scene);
-    NoteList left("materials");
+    NoteList left("materials"), lightmaps("lightmaps");
     for (std::size_t i = 0; i < materials.size(); ++i) {
         Material& m = scene.materials.emplace_back();
         try {
-            MaterialReader reader(materials[i], textures, scene, faults, i);
+            MaterialReader reader(materials[i], textures, scene, faults, i, lightmaps);
             m = reader.read();
             if (moving.contains(static_cast<int>(i)))
                 scene.material_parts[static_cast<int>(i)] = reader.parts();
@@ -257,6 +258,7 @@ void readMaterials(const Model& model, Scene& scene, std::vector<int>& imageOf) 
     }
     limitNotes(scene.notes, before, "materials");
     left.moveTo(scene.notes);
+    lightmaps.moveTo(scene.notes);
     noteTransmission(materials, drawn, scene);
     const bool needsDefault =
         std::any_of(model.meshes.begin(), model.meshes.end(), [](const tinygltf::Mesh& mesh) {

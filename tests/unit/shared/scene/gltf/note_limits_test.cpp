@@ -37,6 +37,7 @@ TEST(GltfNoteLimits, OfOneKindAreFew) {
         {"bufferViews", add("/bufferViews", R"({"buffer": 0, "byteLength": 100})")},
         {"extensions", keyed("/extensions", "{}")},
         {"instances", node(R"({"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {}}}})")},
+        {"lightmaps", add("/materials", R"({"extras": {"diptych": {"unknown": 1}}})")},
         {"material variants", add("/extensions/KHR_materials_variants/variants", "{}")},
         {"materials", add("/materials", R"({"pbrMetallicRoughness": {"metallicFactor": 2}})")},
         {"meshes", add("/meshes/0/primitives", R"({"attributes": {"POSITION": 0}, "mode": 1})")},
