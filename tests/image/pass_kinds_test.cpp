@@ -129,7 +129,6 @@ TEST(PassKinds, DepthIsBiasedAndClamped) {
     EXPECT_NEAR(plain, 0.5f, 1e-6f);
     EXPECT_NEAR(std::ldexp(biased - plain, 24), -1000, 1);
     EXPECT_EQ(drawn({}, 1.5f), 0.25f);  // clipped
-    EXPECT_EQ(drawn({.depth_clamp = true}, 1.5f), 1.0f);
 }
 
 // The hypotenuse of a triangle over half of the image crosses the pixels of a diagonal and covers two of

@@ -153,8 +153,8 @@ TEST(HiddenFallbacks, DrawTheSameImage) {
 // never uses (GpuChoice draws with them).
 TEST(HiddenFallbacks, AreTestedForEveryOptionalFeature) {
     std::set<std::string> known{
-        "depthClamp",    "independentBlend",  "shaderBufferInt64Atomics",  "geometryShader",
-        "shaderFloat16", "multiDrawIndirect", "drawIndirectFirstInstance",
+        "independentBlend", "shaderBufferInt64Atomics", "geometryShader",
+        "shaderFloat16",    "multiDrawIndirect",        "drawIndirectFirstInstance",
     };
     for (const Fallback& f : fallbacks())
         if (f.hidden.starts_with("feature ")) known.insert(f.hidden.substr(8));

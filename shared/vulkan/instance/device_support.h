@@ -31,7 +31,6 @@ namespace diptych {
     X(v10, fullDrawIndexUint32,            required, "32-bit indices")                          \
     X(v10, occlusionQueryPrecise,          optional, "precise occlusion queries")               \
     X(v10, pipelineStatisticsQuery,        optional, "pipeline statistics")                     \
-    X(v10, depthClamp,                     optional, "depth clamping")                          \
     X(v10, independentBlend,               optional, "independent blending")                    \
     X(v10, drawIndirectFirstInstance,      optional, "indirect draws with a first instance")    \
     X(v10, multiDrawIndirect,              optional, "multi-draw indirect")                     \

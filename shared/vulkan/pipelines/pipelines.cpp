@@ -40,8 +40,6 @@ void checkPipeline(const CreationContext& context, const PipelineKey& key, const
     if (key.depth != VK_FORMAT_UNDEFINED) needs(key.depth, format_use::depth);
     for (const VkVertexInputAttributeDescription& attribute : parts.attributes)
         needs(attribute.format, format_use::vertices);
-    if (key.depth_clamp && !context.support.has(DeviceFeature::depthClamp))
-        refuse(context, name, "it lacks depth clamping; choose another device with --device");
 }
 
 // Reduces the module to the variant. `outputs`: locations that the next stage reads.
@@ -102,7 +100,6 @@ constexpr VkPipelineDynamicStateCreateInfo dynamicState{
 VkPipelineRasterizationStateCreateInfo rasterState(const PipelineKey& key) {
     VkPipelineRasterizationStateCreateInfo raster{};
     raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.depthClampEnable = key.depth_clamp;
     raster.depthBiasEnable = key.depth_bias != DepthBias{};
     raster.depthBiasConstantFactor = key.depth_bias.constant;
     raster.depthBiasSlopeFactor = key.depth_bias.slope;

@@ -46,7 +46,6 @@ struct PipelineKey {
     VkFormat depth = VK_FORMAT_UNDEFINED;
     VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;  // always without writes: no depth test
     bool depth_write = false;
-    bool depth_clamp = false;  // clamp fragments outside the depth range instead of clipping them
     DepthBias depth_bias{};
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool sample_shading = false;  // a fragment for every sample
