@@ -202,7 +202,7 @@ TEST(ManyScenes, AfterAKillAtAnyFileTheSameCommandMakesTheWholeReport) {
     const std::string compare =
         "compare builtin:points builtin:triangle builtin:spots builtin:areas" + manyHow + " --shard 1/1 -o ";
     ASSERT_EQ(runTool(folder, compare + "whole").code, 0);
-    const Rows rows(16);
+    const Rows rows(8);
     std::set<std::size_t> kept_scenes;
     for (int row = 0;; row = rows.after(row)) {
         const int at = 10 + 5 * row;
