@@ -118,7 +118,7 @@ TEST_P(EveryCommand, NamesBadInput) {
                                {"builtin:nothing", "builtin:nothing: no such scene"},
                                {"--gbuffer huge", "--gbuffer huge"},
                                {"--size 0x9", "--size 0x9"},
-                               {"builtin:triangle --msaa 3", "--msaa 3: "},
+                               {"builtin:triangle --msaa 3", "--msaa"},
                                {"builtin:triangle --device nosuch", "--device nosuch: no such device"}});
     if (row_.draws == Draws::scenes)
         bad.insert(bad.end(), {{"builtin:triangle --camera 99", "--camera \"99\""},
