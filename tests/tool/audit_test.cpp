@@ -92,8 +92,8 @@ std::size_t stepsIn(const fs::path& state) {
     return steps;
 }
 
-// Finished plots are readable while the rest is measured; the page says what is pending. What was measured is
-// not measured again.
+// Users can read finished plots while audit measures the rest; the page says what is pending. After a kill,
+// audit measures only what is missing.
 TEST(AuditTool, TheFirstPlotIsThereBeforeTheLast) {
     const Folder folder;
     const std::string words = "audit builtin:triangle --size 16x9 -o t --quantity offset,scale,intensity ";

@@ -184,7 +184,7 @@ TEST_P(WritingCommand, GoesOnAfterAnInterruption) {
 }
 
 #ifdef DIPTYCH_FAULTS
-// A document without what differs between two runs: times, what they decide, and what was kept.
+// Removes from a document what two runs do not share: times, what times decide, and counts of resumed rows.
 Json timeless(Json document) {
     static const std::set<std::string> timed{
         "ms",         "passes",     "drawing_ms", "visits", "fronts",       "second_visit", "cost_ms",

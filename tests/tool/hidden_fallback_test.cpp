@@ -149,8 +149,8 @@ TEST(HiddenFallbacks, DrawTheSameImage) {
     }
 }
 
-// A new optional feature is drawn without it above, or is in the list of those that refuse or that lavapipe
-// never uses (GpuChoice draws with them).
+// A new optional feature needs a row above. The features listed here have none: the program refuses to draw
+// without them, or lavapipe never uses them (GpuChoice draws with them).
 TEST(HiddenFallbacks, AreTestedForEveryOptionalFeature) {
     std::set<std::string> known{
         "independentBlend", "shaderBufferInt64Atomics", "geometryShader",

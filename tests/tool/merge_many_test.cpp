@@ -136,7 +136,7 @@ TEST(MergeMany, TakesLittleMemoryAndThePageIsWhole) {
     EXPECT_EQ(json["comparisons"].size(), manyCount);
     EXPECT_TRUE(json["since"]["comparisons"].empty()) << json["since"].dump(1).substr(0, 500);
     SKIP_WITHOUT_BROWSER();
-    const std::size_t last = manyCount - 3;  // of those that fail
+    const std::size_t last = manyCount - 3;  // the last comparison that fails
     const Visit seen =
         visit(folder, folder / "all/index.html", fmt::format("const LAST = '{}.glb';", last) + lookAtMany);
     EXPECT_EQ(seen.console, "");

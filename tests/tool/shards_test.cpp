@@ -195,8 +195,8 @@ TEST(ManyScenes, ATaskOfASlurmArrayTakesItsShard) {
 }
 
 #ifdef DIPTYCH_FAULTS
-// Killed before a call that moves or removes a file, some 170 in all, and then repeated: what is finished is
-// not rendered again, and no moment leaves half a report.
+// A kill hits one of some 170 calls that move or remove a file. The command is then repeated: it does not
+// render finished scenes again, and no kill leaves half a report.
 TEST(ManyScenes, AfterAKillAtAnyFileTheSameCommandMakesTheWholeReport) {
     const Folder folder;
     const std::string compare =

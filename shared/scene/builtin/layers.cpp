@@ -12,7 +12,7 @@
 namespace diptych::builtin {
 namespace {
 
-// The layers' textures. A scene makes only those that its rows read.
+// Textures of the material layers. A scene makes only the textures that its rows read.
 struct Maps {
     TextureSlot relief = {}, ripples = {}, coat = {}, brushed = {}, sheen = {}, film = {};
     TextureSlot transmission = {}, thickness = {}, diffuse = {};

@@ -44,7 +44,7 @@ struct Lightmap {
     int texture = -1, texcoord = 1;  // valid, or -1
     double intensity = 1;
 };
-// `textures`: their number. `who` names the material.
+// `textures`: their number. `who` names the material. Faults and unknown keys go to `notes`.
 Lightmap lightmapOf(const nlohmann::json& material, std::size_t textures, const std::string& who,
                     NoteList& notes);
 

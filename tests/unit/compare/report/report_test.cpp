@@ -33,7 +33,7 @@ using Json = nlohmann::json;
 Report passing() {
     return reportOf(bothFrames());
 }
-// Of one channel: for tests of folders.
+// A report of one channel, for tests of folders.
 Report ofOneChannel() {
     return reportOf(withOnly({Channel::roughness, Channel::material_id}, bothFrames()));
 }

@@ -138,7 +138,7 @@ TEST(ExrParts, DataWindowsOfTheirOwn) {
         const ImageFile file = partsOf(exrOf({first, second}));
         ASSERT_EQ(file.layers.size(), 3u);
         expectMade(file.layers[0], 0, {3, 2, 1, 0}, data, display);
-        // What lies outside the display window is cut, which --strict does not accept.
+        // The reader cuts pixels outside the display window; --strict refuses that.
         const auto said = [](const char* part, const Imath::Box2i& is) {
             return "part \"" + std::string(part) + "\": its data window is " +
                    std::to_string(is.size().x + 1) + "x" + std::to_string(is.size().y + 1) + " at " +

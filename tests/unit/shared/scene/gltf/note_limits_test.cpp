@@ -12,7 +12,7 @@
 using namespace diptych;
 using Json = nlohmann::json;
 
-// Of each kind the first 20 are shown; another line counts the rest.
+// The reader shows the first 20 notes of each kind; another line counts the rest.
 TEST(GltfNoteLimits, OfOneKindAreFew) {
     const auto add = [](const char* to, const std::string& value) {
         return [=](GltfFile& f) { f.json[Json::json_pointer(to)].push_back(Json::parse(value)); };

@@ -271,7 +271,7 @@ TEST(GltfNotes, OfTransmissionWithoutEffectComeWithTheirCauseAlone) {
          all(pane(thick), opaque),
          animated(0, pointer(extension + "volume/thicknessFactor"), 1, {0, 1}),
          animated(0, pointer(extension + "transmission/transmissionFactor"), 1, {0, 1})},
-        // Those that are drawn, by name or index.
+        // The note names the drawn materials, by name or index.
         {{"2 materials (pane, 2) " + volume},
          all(at("/materials", "[{\"name\": \"pane\", \"extensions\": {" + thick +
                                   "}}, {}, {\"extensions\": {" + thick +
