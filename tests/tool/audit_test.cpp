@@ -98,7 +98,12 @@ TEST(AuditTool, TheFirstPlotIsThereBeforeTheLast) {
     const Folder folder;
     const std::string words = "audit builtin:triangle --size 16x9 -o t --quantity offset,scale,intensity ";
     // The key's move, ten steps', five files' and the folder's; then steps of scale.
-    const Faulted cut = runFaulted(folder, words + "-q", {"move", "kill"}, 25);
+    const std::string anew =
+        "the results of an interrupted audit belong to another scene, device or Settings; starting anew";
+    const Faulted first = runFaulted(folder, words + "--gbuffer full", {"move", "kill"}, 3);
+    EXPECT_EQ(first.err.find(anew), first.err.npos) << first.err;
+    const Faulted cut = runFaulted(folder, words, {"move", "kill"}, 25);
+    EXPECT_NE(cut.err.find(anew), cut.err.npos) << cut.err;
     const Json sofar = readJson(folder / "t/audit.json");
     ASSERT_EQ(sofar["to_come"], (Json{"scale", "intensity"})) << cut.seen;
     EXPECT_EQ(sofar["quantities"].size(), 1u);
@@ -111,6 +116,8 @@ TEST(AuditTool, TheFirstPlotIsThereBeforeTheLast) {
     EXPECT_TRUE(whole["to_come"].empty());
     EXPECT_EQ(whole["quantities"].size(), 3u);
     EXPECT_EQ(whole["steps_kept"], kept);
+    EXPECT_NE(ran.err.find(fmt::format("{} steps kept from an interrupted run", kept)), ran.err.npos)
+        << ran.err;
     EXPECT_TRUE(fs::exists(folder / "t/intensity.svg"));
     EXPECT_FALSE(fs::exists(folder / ".t.audit"));
     // Continues at the step whose file did not get its name: "move scale-VALUE.json".

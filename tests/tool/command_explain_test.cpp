@@ -76,6 +76,10 @@ TEST(Command, ExplainReadsImages) {
     EXPECT_EQ(of_files["causes"].dump(), drawn["causes"].dump());
     EXPECT_LT(of_files["unexplained"], 1e-6);
     EXPECT_EQ(of_files["reproduction"][0], 0);
+    const std::string unused = "Settings come from the files; those of the command line are not used";
+    EXPECT_EQ(ran.err.find(unused), ran.err.npos);
+    const Ran with_settings = runTool(folder, "explain a.exr b.exr --haze on");
+    EXPECT_NE(with_settings.err.find(unused), with_settings.err.npos) << with_settings.err;
     const Ran lacking = runTool(folder, "explain a.exr few.exr");
     EXPECT_EQ(lacking.code, 2);
     EXPECT_NE(lacking.err.find("few.exr has no channel"), std::string::npos) << lacking.err;

@@ -43,6 +43,7 @@ struct Fake {
 
 struct Fault {
     std::string group, name;  // two faults of one group are never combined
+    std::string text;         // words of its description
     std::function<void(Fake&)> plant;
 };
 
@@ -66,45 +67,64 @@ std::vector<Fault> faults() {
     };
     const auto encoded = [](double v) { return encodedSrgb(std::min(v, 1.0)); };
     const double pi = glm::radians(180.0);
-    return {{"fov", "fov", [](Fake& f) { f.fov = 1; }},
-            {"fov", "fov", [](Fake& f) { f.fov = -1; }},
-            {"shift", "shift", [](Fake& f) { f.right = 1; }},
-            {"shift", "shift", [](Fake& f) { f.down = 1; }},
-            {"upside_down", "upside_down", [](Fake& f) { f.upside_down = true; }},
-            {"mirrored", "mirrored", [](Fake& f) { f.mirrored = true; }},
-            {"curve", "srgb_output", [=](Fake& f) { f.curve = encoded; }},
-            {"curve", "tone_curve", [](Fake& f) { f.curve = [](double v) { return v / (1 + v); }; }},
-            {"curve", "tone_curve",
-             [](Fake& f) {
-                 f.curve = [](double v) {  // Narkowicz's fit of the ACES film curve, with its encoding
-                     return std::pow(
-                         std::clamp(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0),
-                         1 / 2.2);
-                 };
-             }},
-            {"curve", "cut_off", [](Fake& f) { f.curve = [](double v) { return std::min(v, 1.0); }; }},
-            {"curve", "exposure", [](Fake& f) { f.curve = [](double v) { return 0.5 * v; }; }},
-            {"primaries", "primaries", [=](Fake& f) { f.primaries = fromRec709(rec709_from_p3); }},
-            {"primaries", "primaries", [=](Fake& f) { f.primaries = fromRec709(rec709_from_rec2020); }},
-            {"colour", "colour_textures_linear", [](Fake& f) { f.colour_linear = true; }},
-            {"data", "data_textures_srgb", [](Fake& f) { f.data_srgb = true; }},
-            {"lights", "light_factor", lights(pi)},
-            {"lights", "light_factor", lights(1 / pi)},
-            {"lights", "light_factor", lights(2)},
-            {"lights", "point_factor", lamp(Lamp::point, 4 * pi)},
-            {"lights", "spot_factor", lamp(Lamp::spot, 0.5)},
-            {"lights", "directional_factor", lamp(Lamp::directional, pi)},
-            {"lights", "no_directional_lights", lamp(Lamp::directional, 0)},
-            {"lights", "no_point_lights", lamp(Lamp::point, 0)},
-            {"lights", "no_spot_lights", lamp(Lamp::spot, 0)},
-            {"lights", "no_area_lights", lamp(Lamp::area, 0)},
-            {"turned", "environment_rotation", [](Fake& f) { f.turned = 90; }},
-            {"turned", "environment_rotation", [](Fake& f) { f.turned = 180; }},
-            {"turned", "environment_rotation", [](Fake& f) { f.turned = -90; }},
-            {"sky", "environment_mirrored", [](Fake& f) { f.sky_mirrored = true; }},
-            {"cut", "ldr_environment", [](Fake& f) { f.sky_cut_off = true; }},
-            {"brightness", "environment_factor", lamp(Lamp::environment, 2)},
-            {"brightness", "environment_factor", lamp(Lamp::environment, 1 / pi)}};
+    return {
+        {"fov", "fov", "degrees wider than requested", [](Fake& f) { f.fov = 1; }},
+        {"fov", "fov", "degrees narrower than requested", [](Fake& f) { f.fov = -1; }},
+        {"shift", "shift", "pixels too far right", [](Fake& f) { f.right = 1; }},
+        {"shift", "shift", "too far down", [](Fake& f) { f.down = 1; }},
+        {"upside_down", "upside_down", "the picture is upside down", [](Fake& f) { f.upside_down = true; }},
+        {"mirrored", "mirrored", "the picture is mirrored, left for right",
+         [](Fake& f) { f.mirrored = true; }},
+        {"curve", "srgb_output", "pixels are encoded as sRGB and clipped at 1; they should be linear",
+         [=](Fake& f) { f.curve = encoded; }},
+        {"curve", "tone_curve", "pixels have a tone curve; they should be linear",
+         [](Fake& f) { f.curve = [](double v) { return v / (1 + v); }; }},
+        {"curve", "tone_curve", "pixels have a tone curve; they should be linear",
+         [](Fake& f) {
+             f.curve = [](double v) {  // Narkowicz's fit of the ACES film curve, with its encoding
+                 return std::pow(std::clamp(v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14), 0.0, 1.0),
+                                 1 / 2.2);
+             };
+         }},
+        {"curve", "cut_off", "radiance is clipped at ",
+         [](Fake& f) { f.curve = [](double v) { return std::min(v, 1.0); }; }},
+        {"curve", "exposure", "all radiance is multiplied by 1 / 2",
+         [](Fake& f) { f.curve = [](double v) { return 0.5 * v; }; }},
+        {"primaries", "primaries", "red, green and blue have the primaries of Display P3",
+         [=](Fake& f) { f.primaries = fromRec709(rec709_from_p3); }},
+        {"primaries", "primaries", "red, green and blue have the primaries of Rec.2020",
+         [=](Fake& f) { f.primaries = fromRec709(rec709_from_rec2020); }},
+        {"colour", "colour_textures_linear", "colour textures are read as linear; they are sRGB",
+         [](Fake& f) { f.colour_linear = true; }},
+        {"data", "data_textures_srgb", "data textures are decoded from sRGB; they are linear",
+         [](Fake& f) { f.data_srgb = true; }},
+        {"lights", "light_factor", "lights are pi times as bright as requested", lights(pi)},
+        {"lights", "light_factor", "lights are 1 / pi times as bright as requested", lights(1 / pi)},
+        {"lights", "light_factor", "lights are 2 times as bright as requested", lights(2)},
+        {"lights", "point_factor", "point lights are 4 pi times as bright as requested",
+         lamp(Lamp::point, 4 * pi)},
+        {"lights", "spot_factor", "spot lights are 1 / 2 times as bright as requested",
+         lamp(Lamp::spot, 0.5)},
+        {"lights", "directional_factor", "directional lights are pi times as bright as requested",
+         lamp(Lamp::directional, pi)},
+        {"lights", "no_directional_lights", "directional lights are not drawn", lamp(Lamp::directional, 0)},
+        {"lights", "no_point_lights", "point lights are not drawn", lamp(Lamp::point, 0)},
+        {"lights", "no_spot_lights", "spot lights are not drawn", lamp(Lamp::spot, 0)},
+        {"lights", "no_area_lights", "area lights are not drawn", lamp(Lamp::area, 0)},
+        {"turned", "environment_rotation", "the environment is rotated by 90 degrees more than requested",
+         [](Fake& f) { f.turned = 90; }},
+        {"turned", "environment_rotation", "the environment is rotated by 180 degrees more than requested",
+         [](Fake& f) { f.turned = 180; }},
+        {"turned", "environment_rotation", "the environment is rotated by -90 degrees more than requested",
+         [](Fake& f) { f.turned = -90; }},
+        {"sky", "environment_mirrored", "the environment is mirrored, left for right",
+         [](Fake& f) { f.sky_mirrored = true; }},
+        {"cut", "ldr_environment", "the environment's radiance is clipped at 1",
+         [](Fake& f) { f.sky_cut_off = true; }},
+        {"brightness", "environment_factor", "environments are 2 times as bright as requested",
+         lamp(Lamp::environment, 2)},
+        {"brightness", "environment_factor", "environments are 1 / pi times as bright as requested",
+         lamp(Lamp::environment, 1 / pi)}};
 }
 
 // Images of the charts, each drawn once.
@@ -256,7 +276,10 @@ TEST(Calibration, OnePlantedDeviationIsNamed) {
     for (const Fault& fault : faults()) {
         Fake fake;
         fault.plant(fake);
-        tally.add(fault.name, deviationsOf(studio().charts(), studio().images(fake, seed++)));
+        const std::vector<Deviation> found = deviationsOf(studio().charts(), studio().images(fake, seed++));
+        tally.add(fault.name, found);
+        if (!found.empty() && found.front().text.find(fault.text) == std::string::npos)
+            ADD_FAILURE() << found.front().text << ": not " << fault.text;
     }
     EXPECT_EQ(tally.right, tally.all) << tally.wrong;
 }
@@ -335,6 +358,8 @@ TEST(Calibration, AResponseIsItsOwnInverse) {
     EXPECT_FALSE(plain.cutOffAt());
     EXPECT_EQ(rampBy([](double v) { return std::pow(v, 1 / 2.2); }).kind(), CurveKind::tone)
         << "a power is not sRGB's curve";
+    EXPECT_EQ(rampBy([](double v) { return v < 1 ? encodedSrgb(v) : v; }).kind(), CurveKind::srgb)
+        << "sRGB ends at 1; a renderer may write anything above";
     const Response reinhard = rampBy([](double v) { return v / (1 + v); });
     EXPECT_EQ(reinhard.kind(), CurveKind::tone);
     for (const double v : {0.03, 0.3, 3.0})

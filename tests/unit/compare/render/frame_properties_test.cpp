@@ -154,6 +154,10 @@ TEST(FrameProperties, AFrameSaysWhatIsKnownBeforeItIsDrawn) {
     EXPECT_EQ(describedFrame(scene, view, settings).notes.back(),
               "the camera's aspect ratio is 2:1, the picture's 1:1: more is visible above and below, and "
               "nothing is cropped");
+    view.view.wider_frame = 0;
+    view.default_view = "from above";
+    EXPECT_EQ(describedFrame(scene, view, settings).notes.back(),
+              "the scene has no camera: viewed from above; --camera chooses another view");
 }
 
 // A floor under a sampled environment. The stated relative uncertainty covers 999 of 1000 pixels (nearest
