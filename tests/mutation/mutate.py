@@ -449,6 +449,7 @@ class Run:
         for target in targets:
             command = call("ninja", "-C", self.build, "-t", "commands", "-s", target).strip().split("\n")[-1]
             command = command.replace(str(self.build / target), str(result)).replace(target, str(result))
+            command = command.replace(" -Werror ", " ")  # alone, an edit may leave an empty body
             if edit.file.endswith(".cpp"):
                 command = re.sub(r" -c \S+", f" -c {self.tree / edit.file}", command)
             command = re.sub(rf"{re.escape(str(self.tree))}\b(?!/build)", str(self.alone), command)
