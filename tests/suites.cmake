@@ -24,8 +24,9 @@ if(NOT EXISTS ${program})
   return()
 endif()
 
-# glibc keeps freed memory for the next shader: lavapipe's compiler frees much of it.
-set(environment MALLOC_TRIM_THRESHOLD_=2000000000 MALLOC_MMAP_THRESHOLD_=33554432 MALLOC_TOP_PAD_=67108864)
+# glibc keeps freed memory for the next shader, in huge pages: lavapipe's compiler frees much of it.
+set(environment MALLOC_TRIM_THRESHOLD_=2000000000 MALLOC_MMAP_MAX_=0 MALLOC_TOP_PAD_=67108864
+  GLIBC_TUNABLES=glibc.malloc.hugetlb=1)
 set(left_out "")
 file(STRINGS ${here}/longer.txt waiting REGEX "^${folder}\\.")
 if(NOT "$ENV{DIPTYCH_TIER}" STREQUAL default)
