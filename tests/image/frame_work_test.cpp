@@ -2,6 +2,8 @@
 // Workload counts of a frame, on scenes whose counts are known.
 #include "compare/render/frame_work.h"
 
+#include "compare/frames/frame_properties.h"
+#include "compare/render/prepared_view.h"
 #include "compare/render/renderer.h"
 #include "compare/render/sample_counts.h"
 #include "tests/image/scenes.h"
@@ -49,6 +51,23 @@ TEST(FrameWork, CountsVerticesTrianglesAndFragments) {
         EXPECT_LT(drawn.counts.fragments, pixels) << "squares leave some background";
         EXPECT_EQ(drawn.texels, 0) << "no material has a texture";
         EXPECT_GT(drawn.vertex_bytes, 0);
+    }
+}
+
+// --prepass auto: the note and the passes are of one decision.
+TEST(FrameWork, APrepassIsDrawnWhereItIsSaidToSaveTime) {
+    Settings settings = countedSettings(Path::forward_plus);
+    settings.prepass = Switch::automatic;
+    for (const auto& [name, on] : {std::pair{"array?objects=12&triangles=24", false}, {"cutout", true}}) {
+        const Scene scene = loadScene(std::string("builtin:") + name);
+        SharedResources shared(device(), scene, pipelines());
+        const SceneView view = makeSceneView(scene, viewRequest(settings));
+        const PreparedFrame prepared(device(), shared, view, settings);
+        EXPECT_EQ(std::ranges::count(prepared.passes.names(), "depth pre-pass"), on ? 1 : 0) << name;
+        const std::string said = std::string("--prepass auto is ") + (on ? "on: " : "off: ");
+        EXPECT_TRUE(std::ranges::any_of(prepared.view.details, [&](const std::string& line) {
+            return line.starts_with(said);
+        })) << name;
     }
 }
 

@@ -135,11 +135,12 @@ void expectClassified(const Settings& settings) {
     EXPECT_EQ(frame.words(), words) << "a second frame leaves the same";
 }
 
-// The last one has more tiles than a dispatch shades.
+// The last one has more tiles than a dispatch shades, and more than threads that list them.
 TEST(LightingTiles, EachIsListedOnceByItsClass) {
-    for (const Size size : {Size{250, 131}, Size{33, 17}, Size{1, 1}, Size{417, 300}})
+    for (const Size size : {Size{250, 131}, Size{33, 17}, Size{1, 1}, Size{540, 500}})
         expectClassified(tiledSettings(size));
-    EXPECT_GT(14u * 10, gpu::TILES_PER_DISPATCH);
+    EXPECT_GT(17u * 16, gpu::TILES_PER_DISPATCH);
+    EXPECT_GT(17u * 16, gpu::TILE_LIST_THREADS);
 }
 
 TEST(LightingTiles, OneSampleOfAPixelIsEnough) {

@@ -172,20 +172,30 @@ TEST(MsaaEdges, TheChannelCountsSurfaces) {
     coated.materials[0].clearcoat = 0.5f;
     Renderer layered(device(), coated, pipelines());
     EXPECT_EQ(countsOf(layered, MsaaEdges::similar), (std::array{0, 64, 0, 0, 0}));
-    // Its second triangle, brushed in a direction 30 degrees away.
-    Scene brushed = coated;
+    // Its second triangle has another normal and tangent.
+    const auto counted = [&](Scene changed, const glm::vec3& normal, const glm::vec3& tangent) {
+        Primitive& p = changed.meshes[0].primitives[0];
+        for (std::size_t k = 3; k < 6; ++k) {
+            const std::uint32_t corner =
+                std::exchange(p.indices[k], static_cast<std::uint32_t>(p.positions.size()));
+            p.positions.push_back(p.positions[corner]);
+            p.normals.push_back(normal);
+            p.tangents.emplace_back(tangent, p.tangents[corner].w);
+            for (auto& texcoords : p.texcoords) texcoords.push_back(texcoords[corner]);
+        }
+        Renderer renderer(device(), changed, pipelines());
+        return countsOf(renderer, MsaaEdges::similar);
+    };
+    Scene brushed = coated;  // 30 degrees away
     brushed.materials[0].anisotropy = 0.5f;
-    Primitive& p = brushed.meshes[0].primitives[0];
-    for (std::size_t k = 3; k < 6; ++k) {
-        const std::uint32_t corner =
-            std::exchange(p.indices[k], static_cast<std::uint32_t>(p.positions.size()));
-        p.positions.push_back(p.positions[corner]);
-        p.normals.push_back(p.normals[corner]);
-        p.tangents.emplace_back(std::sqrt(0.75f), 0.5f, 0, p.tangents[corner].w);
-        for (auto& texcoords : p.texcoords) texcoords.push_back(texcoords[corner]);
+    EXPECT_EQ(counted(brushed, {0, 0, 1}, {std::sqrt(0.75f), 0.5f, 0}), (std::array{0, 56, 8, 0, 0}));
+    // The glossier, the smaller the turn that shows: 0.001 rad times the squared roughness.
+    for (const float roughness : {1.0f, 0.5f}) {
+        Scene tilted = square();
+        tilted.materials[0].roughness = roughness;
+        EXPECT_EQ(counted(tilted, glm::normalize(glm::vec3(5e-4f, 0, 1)), {1, 0, 0}),
+                  roughness == 1 ? (std::array{0, 64, 0, 0, 0}) : (std::array{0, 56, 8, 0, 0}));
     }
-    Renderer turned(device(), brushed, pipelines());
-    EXPECT_EQ(countsOf(turned, MsaaEdges::similar), (std::array{0, 56, 8, 0, 0}));
     Scene lower = square();
     lower.meshes[0].primitives[0].indices = {0, 1, 2};  // below the diagonal, through 8 pixels
     Renderer half(device(), lower, pipelines());

@@ -281,6 +281,8 @@ TEST(TransparencyModes, WhatFindsNoRoomIsCountedInEveryPart) {
     const Image made = litWith(b.scene, settings, nothing, [&](PreparedView& view) {
         overflow = view.fragments.overflow();
         rows = view.fragments.rows();
+        EXPECT_GE(view.fragments.bytes(), std::uint64_t{256} * rows * listed_layers * 8)
+            << "a key and a color";
     });
     if (rows >= 192) GTEST_SKIP() << "this device's buffers hold the whole picture";
     std::size_t pixels = 0, above = 0;

@@ -107,6 +107,19 @@ TEST(External, AJobIsAFileAndTheLastArgumentAndNamesWholePaths) {
         EXPECT_FALSE(entry.path().filename().string().starts_with(".diptych-job")) << "is removed";
 }
 
+TEST(External, AJobHasTheEnvironmentOfTheSettingsTimesItsCorrections) {
+    const Folder folder;
+    const Image sky(8, 4, 3, 0.5f);
+    writeExr(folder / "sky.exr", {{{"R", "G", "B"}, &sky}});
+    writeRenderer(folder, "fake", {"keep", (folder / "kept").string()},
+                  {{"granted", {{"environment_factor", 3.0}, {"environment_rotation", 40.0}}}});
+    runTool(folder,
+            compare_points + "--env sky.exr --ibl-intensity 2 --env-rotation 30 --renderer f=fake.json");
+    const Json job = Json::parse(contentsOf(folder / "kept/job.json"));
+    EXPECT_EQ(job["environment"]["intensity"], 6);
+    EXPECT_EQ(job["environment"]["rotation_degrees"], 70);
+}
+
 TEST(External, AnyFailureIsAnErrorAndNeverAComparison) {
     const Folder folder;
     ASSERT_EQ(runTool(folder, "render builtin:points --size 32x18 --runs 0 -q -o before.exr").code, 0);
@@ -361,11 +374,19 @@ TEST(External, ARendererHasARowOfATradeoff) {
     EXPECT_EQ(sweep["rows"][1]["errors"], sweep["rows"][0]["errors"]) << "one picture, one error";
     EXPECT_GT(sweep["rows"][2]["errors"]["flip"], sweep["rows"][1]["errors"]["flip"]);
     EXPECT_GT(sweep["rows"][1]["ms"]["median"], 0);
+    ASSERT_FALSE(sweep["notes"].empty());
+    EXPECT_TRUE(
+        sweep["notes"].back().get<std::string>().starts_with("no row: builtin:points: renderer fails "));
     for (const Json& front : sweep["fronts"])
         EXPECT_EQ(front["rows"], Json({1})) << "a command's time is no frame's";
     EXPECT_TRUE(fs::exists(folder / "diptych-tradeoff/row-003.png"));
-    EXPECT_NE(contentsOf(folder / "diptych-tradeoff/index.html").find("same, external renderer"),
-              std::string::npos);
+    const std::string page = contentsOf(folder / "diptych-tradeoff/index.html");
+    EXPECT_NE(page.find("same, external renderer"), page.npos);
+    int warned = 0;
+    for (std::size_t at = 0; (at = page.find("its time is its whole command", at)) != page.npos; ++at)
+        ++warned;
+    EXPECT_EQ(warned, 2) << "both external rows";
+    EXPECT_NE(page.find("from start to end: it is left out of the fronts"), page.npos);
 }
 
 TEST(External, FilesAreReadStrictly) {

@@ -24,6 +24,8 @@ TEST(Manual, HasEveryCommandAndOptionOfTheHelp) {
     const Folder folder;
     const Ran page = runTool(folder, "--manual");
     ASSERT_EQ(page.code, 0) << page.err;
+    for (std::size_t at = 0; (at = page.out.find("\\&", at)) != page.out.npos; ++at)
+        EXPECT_EQ(page.out[at - 1], '\n') << "escapes the first character of a line";
     // As man shows it, if groff is installed; groff's warnings are faults.
     std::string shown = page.out;
     if (isThere(folder, "groff")) {

@@ -66,7 +66,8 @@ TEST(Slurm, ADryRunPrintsBothScripts) {
         folder, "submit slurm --shards 4 --at-once 2 --dry-run -- " + slurmCompare + " -o 'a report'");
     EXPECT_EQ(ran.code, 0) << ran.err;
     for (const char* text :
-         {"#SBATCH --array=1-4%2\n", "#SBATCH --requeue\n", "/a report.slurm/shard-%a.log\"\n",
+         {"#SBATCH --job-name=diptych-compare\n", "#SBATCH --job-name=diptych-merge\n",
+          "#SBATCH --array=1-4%2\n", "#SBATCH --requeue\n", "/a report.slurm/shard-%a.log\"\n",
           " compare --shard slurm/4 -o '", "/a report.slurm/shard-'\"$SLURM_ARRAY_TASK_ID\" ", " merge '",
           "/a report.slurm/shard-4' -o '", "/a report.slurm/merge.log\"\n"})
         EXPECT_NE(ran.out.find(text), std::string::npos) << text << "\n" << ran.out;

@@ -220,6 +220,24 @@ TEST_F(View, AReportOpensAtWhatFails) {
     }
 }
 
+TEST_F(View, ImagesAreAsLargeAsTheWindowShowsThem) {
+    start({"view", "-v", "builtin:triangle"});
+    settle();
+    viewer::InterfaceState state;
+    for (const auto& [width, height] : {std::pair{windowWidth, windowHeight}, {900, 500}}) {
+        if (width != windowWidth) {
+            stills_ = times("view: still");
+            display_->events(fmt::format("search --name diptych windowsize {} {}", width, height));
+            settle();
+        }
+        const viewer::CanvasRect canvas = viewer::canvasOf(state, width, height, 1);
+        key("y");
+        const std::string line = lastLine("copied: ");
+        EXPECT_NE(line.find(fmt::format("--size {}x{}", canvas.width, canvas.height)), line.npos) << line;
+    }
+    close();
+}
+
 TEST_F(View, OpensAtTheChannelThatWasAskedFor) {
     open({"builtin:triangle", "--debug", "normals"});
     key("y");

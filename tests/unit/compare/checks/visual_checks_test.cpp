@@ -102,6 +102,20 @@ TEST(VisualChecks, PositionsTellInstancesOfOneMaterialApart) {
     EXPECT_EQ(checks[0].checks[0].pixels, 2500u);
 }
 
+// Positions may err by 1e-3 of the box's largest coordinate, here 3.5 m.
+TEST(VisualChecks, PositionsAreLookedForInAnExpandedBox) {
+    const Scene scene = sceneOf(squareAt(2.5f, 0, -2));
+    const auto found = [&](float z) {
+        Image ids(200, 100, 1, -1), positions(200, 100, 3);
+        ids.at(160, 50) = 0;
+        const glm::vec3 there(60.5f / 25, -0.5f / 25, z);
+        for (int c = 0; c < 3; ++c) positions.at(160, 50, c) = there[c];
+        return !boxesOf(checksIn(scene, viewOf(), &ids, &positions)).empty();
+    };
+    EXPECT_TRUE(found(-2.003f));
+    EXPECT_FALSE(found(-2.004f));
+}
+
 // Compared with counting pixel by pixel, for sizes that are not multiples of the tile size.
 TEST(VisualChecks, MaterialPixelsAreWhatIsThere) {
     std::mt19937 random(1);

@@ -110,6 +110,12 @@ TEST(ExperimentErrors, ArePixelsThatTheReferenceShows) {
         << "beyond the reference's silhouette nothing is counted";
     EXPECT_EQ(errorsBetween(reference, more).pixels.size(), 1u);
     EXPECT_EQ(errorsBetween(reference, less).errors[1], 1) << "a surface that is missing is all wrong";
+    const Frame second = frameOf(2, 1, {-1, 1}), both = frameOf(2, 1, {5, 1});
+    for (std::size_t metric = 0; metric < errorMetrics.size(); ++metric) {
+        ErrorsOfCameras errors;
+        errors.add(ErrorsAgainst(second).forMetric(metric, both.channels.at(Channel::lit)));
+        EXPECT_EQ(errors.errors()[metric], 0) << errorMetrics[metric].name;
+    }
 }
 
 TEST(ExperimentErrors, ANanIsInfinite) {

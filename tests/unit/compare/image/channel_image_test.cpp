@@ -161,6 +161,7 @@ TEST(ChannelImage, WhatWasRepairedIsMarked) {
 TEST(ChannelImage, HalfSizeAverages) {
     const Image8 image{2, 2, 3, {0, 0, 0, 4, 4, 4, 8, 8, 8, 12, 12, 12}};
     EXPECT_EQ(halfSize(image).data, (std::vector<std::uint8_t>{6, 6, 6}));
+    EXPECT_EQ(halfSize({4, 2, 1, {0, 4, 100, 200, 8, 12, 60, 40}}).data, (std::vector<std::uint8_t>{6, 100}));
     EXPECT_EQ(halfSize({1, 1, 3, {9, 8, 7}}).data, (std::vector<std::uint8_t>{9, 8, 7}));
 }
 

@@ -192,6 +192,26 @@ TEST(ReferenceDraw, WhatFloat32ErrsByIsKeptWhereItCounts) {
     }
 }
 
+// So is the attenuation at the edge of a cone.
+TEST(ReferenceDraw, WhatFloat32ErrsByIsKeptAtTheEdgeOfACone) {
+    Scene scene = floorScene();
+    const View view = viewFrom({0, 0, 3}, {0, 0, 0}, 1, 1, 0.01);
+    for (const double inside : {0.5, 0.002}) {  // 0 at the outer cone, 1 at the inner one
+        const double angle = std::acos(std::cos(0.5) + inside * (std::cos(0.4) - std::cos(0.5)));
+        Light light = lightOf(LightKind::spot, {0, 0, 2}, {std::sin(angle), 0, -std::cos(angle)});
+        light.inner_cone = 0.4f;
+        light.outer_cone = 0.5f;
+        scene.lights = {light};
+        const Drawn d = drawn(scene, view);
+        ASSERT_EQ(d.image.rounding.empty(), inside == 0.5);
+        if (inside == 0.5) continue;
+        const double ratio =
+            double{d.image.rounding.at(0, 0, 0)} / double{d[Channel::lit_diffuse].at(0, 0, 0)};
+        EXPECT_GT(ratio, 0.001);
+        EXPECT_LT(ratio, 0.02);
+    }
+}
+
 TEST(ReferenceDraw, LayersThatBlendAreLaidOver) {
     Scene scene = floorScene();
     Material m = matte();

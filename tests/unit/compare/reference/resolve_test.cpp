@@ -144,8 +144,8 @@ Pixel meanOf(Resolve resolve, std::size_t which, double off, double known) {
     for (std::size_t i = 0; i < 4; ++i) {
         Pixel sample;
         sample.lit = sample.unblended = glm::dvec3(sampleRadiance[i] + (i == which ? off : 0));
-        if (i == which) sample.shading.uncertainty = known;
-        if (i == which) sample.shading.costs.sampled = known;
+        for (Shading* shading : {&sample.shading, &sample.blended})
+            if (i == which) shading->uncertainty = shading->costs.sampled = known;
         light.add(sample);
     }
     Pixel mean;
@@ -159,8 +159,10 @@ TEST(ReferenceResolve, TellsHowFarAnErrorOfASampleMovesIt) {
             const double step = 1e-4 * (1 + sampleRadiance[i]);
             const double moved = (meanOf(resolve, i, step, 0).lit.x - meanOf(resolve, i, -step, 0).lit.x) / 2;
             const Pixel mean = meanOf(resolve, i, 0, step);
-            EXPECT_NEAR(mean.shading.uncertainty, moved, 1e-3 * moved) << sampleRadiance[i];
-            EXPECT_NEAR(mean.shading.costs.sampled, moved, 1e-3 * moved) << sampleRadiance[i];
+            for (const Shading* shading : {&mean.shading, &mean.blended}) {
+                EXPECT_NEAR(shading->uncertainty, moved, 1e-3 * moved) << sampleRadiance[i];
+                EXPECT_NEAR(shading->costs.sampled, moved, 1e-3 * moved) << sampleRadiance[i];
+            }
         }
 }
 

@@ -80,9 +80,16 @@ TEST(Progress, ATerminalSeesABarAfterASecondAndIsWipedAtTheEnd) {
         EXPECT_FALSE(holds(screen.lines[0], "\n"));
         progress.at("a.gltf", 0.6, "draw");
         EXPECT_EQ(screen.lines.size(), 1u) << "twenty times a second at most";
+        wipeProgress();
+        ASSERT_EQ(screen.lines.size(), 2u) << "before other output";
+        EXPECT_EQ(screen.lines[1], "\r\x1b[K");
+        wipeProgress();
+        EXPECT_EQ(screen.lines.size(), 2u) << "nothing is shown";
+        screen.now += 1s;
+        progress.at("a.gltf", 0.7, "draw");
     }
-    ASSERT_EQ(screen.lines.size(), 2u);
-    EXPECT_EQ(screen.lines[1], "\r\x1b[K");
+    ASSERT_EQ(screen.lines.size(), 4u);
+    EXPECT_EQ(screen.lines[3], "\r\x1b[K");
 }
 
 TEST(Progress, ALogGetsAPlainLineEveryTenSeconds) {

@@ -2,10 +2,12 @@
 // The output of a sweep: table, CSV, JSON, plots and page.
 #include "compare/cli/option_groups.h"
 #include "compare/output/writers.h"
+#include "compare/tradeoff/all_scenes.h"
 #include "compare/tradeoff/plot.h"
 #include "compare/tradeoff/tables.h"
 #include "compare/tradeoff/tradeoff.h"
 #include "tests/support/command_lines.h"
+#include "tests/support/files.h"
 #include "tests/support/nonfinite.h"
 #include "tests/support/report_builder.h"
 #include "tests/support/setting_samples.h"
@@ -281,6 +283,14 @@ TEST(TradeoffOutput, SeveralCamerasAreMeansAndSpreads) {
     EXPECT_EQ(made[Measure::memory], 5000);
     EXPECT_FALSE(made.measured.has(Measure::shaded)) << "one camera has none";
     EXPECT_DOUBLE_EQ(made.passes[0].ms, 1);
+}
+
+TEST(TradeoffOutput, OfNoSceneIsAnEmptyList) {
+    const std::filesystem::path written = folder() / "none";
+    writeAllScenes(written, {{"schema", 1}}, {}, {"a.glb: is empty"}, false);
+    EXPECT_EQ(nlohmann::json::parse(contentsOf(written / tradeoffsManifest))["scenes"],
+              nlohmann::json::array());
+    EXPECT_NE(contentsOf(written / "index.html").find("a.glb: is empty"), std::string::npos);
 }
 
 TEST(TradeoffOutput, TwoVisitsCountAlikeAndTellTheDrift) {

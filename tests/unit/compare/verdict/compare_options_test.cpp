@@ -182,6 +182,7 @@ TEST(Measurement, NothingPassesANan) {
     EXPECT_EQ(other({"flip", 0}), 1.0 / 256) << "in the reference, too";
     EXPECT_EQ(one({"failing", 1e30}), 1.0 / 256);
     for (const Metric& metric : allMetrics()) {
+        EXPECT_EQ(metric.more_is_better, metric.name == "psnr" || metric.name == "ssim") << metric.name;
         Rule rule;
         const double worst = metric.more_is_better ? -std::numeric_limits<double>::infinity() : 1e300;
         rule.fail = {Condition::Kind::bound, {std::string(metric.name), 0}, worst, {}};

@@ -225,6 +225,7 @@ TEST(Tolerance, AlbedoAndSpecularBoundsHoldAndAreTight) {
             }
             EXPECT_LE(worst, p.of(Channel::specular).max);
             EXPECT_GE(worst, 0.8 * p.of(Channel::specular).max);
+            EXPECT_EQ(p.of(Channel::specular).because.find(" and F0") != std::string::npos, stored);
         }
 }
 

@@ -37,5 +37,20 @@ TEST(Latencies, AKeyThatAsksForNoImageIsSeenAtOnce) {
     EXPECT_TRUE(said[1].starts_with("key H: seen after ")) << said[1];
 }
 
+TEST(Latencies, OfFramesHavePercentiles) {
+    std::vector<std::string> said;
+    Latencies latencies([&](const std::string& line) { said.push_back(line); }, Latencies::Clock::now());
+    latencies.reportFrames();
+    EXPECT_TRUE(said.empty());
+    for (int ms = 1; ms < 30; ++ms) latencies.frame(ms);
+    EXPECT_EQ(latencies.percentile(), 0);
+    for (int ms = 30; ms <= 1200; ++ms) latencies.frame(ms);
+    EXPECT_EQ(latencies.percentile(), 1188);
+    latencies.reportFrames();
+    EXPECT_EQ(said,
+              (std::vector<std::string>{"interface: 1200 frames, median 600.0 ms, 99th percentile 1188.0 "
+                                        "ms, longest 1200.0 ms"}));
+}
+
 }  // namespace
 }  // namespace diptych::viewer

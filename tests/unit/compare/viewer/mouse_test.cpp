@@ -45,6 +45,18 @@ TEST(Mouse, AnImageIsDraggedFromWhereTheButtonWentDown) {
     EXPECT_EQ(hand.state.canvas.centre_y, 50 - 14 / 2);
 }
 
+TEST(Mouse, KnowsThePixelUnderTheCursor) {
+    Hand hand;
+    hand.state.canvas.layout = Layout::single;
+    hand.state.subject.settings.size = {400, 300};
+    hand.move(350.5, 100.5);
+    ASSERT_TRUE(hand.contents.under);
+    EXPECT_EQ(hand.contents.under->pixel.x, 350);
+    EXPECT_EQ(hand.contents.under->pixel.y, 100);
+    hand.move(350.5, 300.5);
+    EXPECT_FALSE(hand.contents.under) << "below the canvas";
+}
+
 TEST(Mouse, TheWipeFollowsTheCursorWithinTheCanvas) {
     Hand hand;
     hand.state.canvas.layout = Layout::wipe;

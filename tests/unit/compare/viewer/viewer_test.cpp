@@ -23,6 +23,22 @@
 namespace diptych::viewer {
 namespace {
 
+TEST(ViewerHistory, KeepsTheLastTimesOfEveryMeasurement) {
+    History history;
+    PathProperties properties;
+    for (std::size_t i = 1; i <= History::longest + 5; ++i) {
+        properties.ms = static_cast<double>(i);
+        properties.passes = {{"geometry", 2 * properties.ms}};
+        properties.measurement = i;
+        history.add(properties);
+        history.add(properties);  // is known
+        EXPECT_EQ(history.total.size(), std::min(i, History::longest));
+    }
+    EXPECT_EQ(history.total.front(), 6);
+    EXPECT_EQ(history.total.back(), History::longest + 5);
+    EXPECT_EQ(history.passes.at("geometry").front(), 12);
+}
+
 // ---- keys ------------------------------------------------------------------------------------------------
 
 TEST(ViewerKeys, NoKeyDoesTwoThings) {

@@ -249,6 +249,24 @@ TEST(Tangents, DegenerateUvsAndTrianglesStillGetUnitTangents) {
     EXPECT_EQ(joined.tangents[joined.indices[0]], joined.tangents[joined.indices[3]]);
 }
 
+// A needle beside a triangle with the same tangents: the cosine of its angle is rounded, to more than 1 too.
+TEST(Tangents, ANeedleChangesNothing) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> coordinate(0.1f, 1);
+    for (int i = 0; i < 200; ++i) {
+        Primitive p;
+        const float x = coordinate(random), y = coordinate(random);
+        p.positions = {{0, 0, 0}, {x, y, 0}, {2 * x, 2 * y, 1e-12f}, {0, 0, -1}};
+        p.normals.assign(4, glm::normalize(glm::vec3(y, -x, 0)));
+        p.texcoords[0] = {{0, 0}, {1, 0}, {2, 1e-12f}, {0, -1}};
+        p.indices = {0, 1, 2, 1, 0, 3};
+        makeTangents(p, {.texcoord = 0});
+        for (std::size_t k = 3; k < 6; ++k)
+            EXPECT_NEAR(glm::dot(glm::vec3(p.tangents[p.indices[k]]), glm::normalize(glm::vec3(x, y, 0))), 1,
+                        slack);
+    }
+}
+
 TEST(Tangents, ThousandTrianglesAroundOneVertexEndWell) {
     Primitive fan;
     fan.positions = {{0, 0, 0}};

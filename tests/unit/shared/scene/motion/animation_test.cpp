@@ -277,6 +277,7 @@ TEST(Animation, LightsAndCamerasMove) {
     expectNear(end.lights[0].direction, {0, 1, 0}, 1e-7, "the spot");
     EXPECT_EQ(glm::dvec3(end.cameras.at(0).world_from_camera[3]), glm::dvec3(0, 20, -3));
     expectNear(-glm::dvec3(end.cameras[0].world_from_camera[2]), {0, 1, 0}, 1e-7, "the camera");
+    EXPECT_EQ(end.cameras[0].node, -1) << "it is in world space";
 }
 
 // An object animated beyond maxCoordinate is not drawn at that time, but is again later.
