@@ -26,7 +26,8 @@ std::map<std::string, Json> checkpointedIn(const fs::path& state) {
 
 const std::string fiveRows =
     R"(tradeoff builtin:triangle --size 32x24 -o t --grid '[{"settings": {
-        "path": ["deferred", "forward_plus"], "size": ["1/2", "1/1"]}}, {"settings": {"prepass": "off"}}]' --runs )";
+        "path": ["deferred", "forward_plus"], "size": ["1/2", "1/1"]}},
+        {"settings": {"prepass": "off"}}]' --runs )";
 const std::string tenRuns = fiveRows + "10 -q";
 
 // Kills the sweep once `count` rows are stored, each by three moves of files, after the key. Returns the

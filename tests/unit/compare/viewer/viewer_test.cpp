@@ -31,7 +31,7 @@ TEST(ViewerHistory, KeepsTheLastTimesOfEveryMeasurement) {
         properties.passes = {{"geometry", 2 * properties.ms}};
         properties.measurement = i;
         history.add(properties);
-        history.add(properties);  // is known
+        history.add(properties);  // the same measurement
         EXPECT_EQ(history.total.size(), std::min(i, History::longest));
     }
     EXPECT_EQ(history.total.front(), 6);
