@@ -32,7 +32,7 @@ void requireImage(const ImageFile& file) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(exr)(const std::uint8_t* data, std::size_t size) {
     const auto read = [&](std::string_view part) {
         fuzz::readOrSayWhy(
             [&] {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -65,6 +66,24 @@ void readOrSayWhy(Read&& read, Behind behind = Behind::our_code) {
     }
 }
 
+// One of the targets that `replay` holds, by name.
+struct Target {
+    using Function = int(const std::uint8_t* data, std::size_t size);
+    static std::map<std::string_view, Function*>& all() {
+        static std::map<std::string_view, Function*> targets;
+        return targets;
+    }
+    Target(std::string_view name, Function* function) { all()[name] = function; }
+};
+
 }  // namespace diptych::fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+// Begins the definition of a target: of the fuzzer's own function, or of one of many in `replay`.
+#ifdef DIPTYCH_FUZZ
+#define FUZZ_TARGET(name) extern "C" int LLVMFuzzerTestOneInput
+#else
+#define FUZZ_TARGET(name)                                               \
+    static diptych::fuzz::Target::Function name##Target;                \
+    static const diptych::fuzz::Target name##_row(#name, name##Target); \
+    static int name##Target
+#endif

@@ -43,7 +43,7 @@ public:
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(gltf)(const std::uint8_t* data, std::size_t size) {
     // One thread: the same input always does the same.
     static const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
     static const Beside beside;

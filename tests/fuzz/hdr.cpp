@@ -6,7 +6,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(hdr)(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy([&] {
         const Image image = readHdr(fuzz::bytesAt(data, size), "fuzz.hdr", fuzz::max_bytes).image;
         fuzz::require(image.width > 0 && image.height > 0 && image.components == 3,

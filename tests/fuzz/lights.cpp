@@ -5,7 +5,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(lights)(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy([&] {
         for (const Light& light : lightsFromJson(fuzz::textAt(data, size), "fuzz.json")) {
             fuzz::requireSound(light);

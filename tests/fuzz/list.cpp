@@ -5,7 +5,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(list)(const std::uint8_t* data, std::size_t size) {
     const std::string_view text = fuzz::textAt(data, size);
     // Without slashes it cannot name files outside the folder, and no pattern searches the machine.
     if (text.find('/') != text.npos || text.find("..") != text.npos) return 0;

@@ -8,7 +8,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(ours)(const std::uint8_t* data, std::size_t size) {
     const fuzz::ScratchFolder folder;
     const std::string_view text = fuzz::textAt(data, size);
     folder.write("report.json", text);

@@ -4,7 +4,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(pfm)(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy([&] {
         const PfmImage decoded = readPfm(fuzz::bytesAt(data, size), "fuzz.pfm", fuzz::max_bytes);
         const Image& image = decoded.image;

@@ -4,7 +4,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(png)(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy(
         [&] {
             const PngImage decoded = readPngImage(fuzz::bytesAt(data, size), "fuzz.png", fuzz::max_bytes);

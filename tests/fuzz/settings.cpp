@@ -4,7 +4,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(settings)(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy([&] {
         const Settings settings = settingsFromJson(std::string(fuzz::textAt(data, size)));
         fuzz::require(settingsFromJson(toJson(settings)) == settings, "what is written reads back the same");

@@ -5,7 +5,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(texture)(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy(
         [&] {
             const ImageHeader header = imageHeader({data, size});

@@ -4,7 +4,7 @@
 
 using namespace diptych;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(tiff)(const std::uint8_t* data, std::size_t size) {
     fuzz::readOrSayWhy([&] {
         const TiffImage decoded = readTiff(fuzz::bytesAt(data, size), "fuzz.tif", fuzz::max_bytes);
         const Image& image = decoded.image;
