@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/viewer.h"
 
-#include "compare/files/diptych_files.h"
 #include "compare/viewer/drawing/canvas.h"
 #include "compare/viewer/drawing/drawing_thread.h"
 #include "compare/viewer/interface/actions.h"
@@ -293,20 +292,10 @@ private:
 
     void handleDropped(const Input& input) {
         for (const std::filesystem::path& file : input.dropped) {
-            std::string ending = file.extension().string();
-            std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-            if (ending == ".gltf" || ending == ".glb") {
+            if (const auto message = openDropped(file, state_))
+                tell(*message);
+            else
                 openScene(file.string());
-            } else if (ending == ".exr" && isDiptychImage(file)) {
-                state_.stored = state_.view_options.file = file;
-                state_.view_options.against = Against::file;
-                tell("left: " + file.string());
-            } else if (ending == ".hdr" || ending == ".exr") {
-                change([&](Settings& s) { s.env = file.string(); });
-                tell("environment: " + file.string());
-            } else {
-                tell(fmt::format("{}: not a .gltf, .glb, .exr or .hdr file", file.string()));
-            }
         }
     }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "compare/viewer/interface/actions.h"
 
+#include "compare/files/diptych_files.h"
 #include "shared/frame/debug_modes.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
@@ -114,6 +116,22 @@ std::optional<std::string> actOnState(const KeyPress& pressed, bool shift, const
             return std::nullopt;
     }
     return std::string();
+}
+
+std::optional<std::string> openDropped(const std::filesystem::path& file, InterfaceState& state) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (ending == ".gltf" || ending == ".glb") return std::nullopt;
+    if (ending == ".exr" && isDiptychImage(file)) {
+        state.stored = state.view_options.file = file;
+        state.view_options.against = Against::file;
+        return "left: " + file.string();
+    }
+    if (ending == ".hdr" || ending == ".exr") {
+        for (Settings* s : {&state.subject.settings, &state.edited}) s->env = file.string();
+        return "environment: " + file.string();
+    }
+    return file.string() + ": not a .gltf, .glb, .exr or .hdr file";
 }
 
 }  // namespace diptych::viewer

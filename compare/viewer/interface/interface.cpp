@@ -67,9 +67,7 @@ void exposureInput(InterfaceState& state, const Contents& contents, float width)
     ImGui::SameLine();
     ImGui::SetNextItemWidth(width);
     auto factor = static_cast<float>(*state.view_options.exposure);
-    if (ImGui::DragFloat("##exposure", &factor, 0.01f * factor, 1e-12f, 1e12f, "x %.4g",
-                         ImGuiSliderFlags_Logarithmic) &&
-        factor > 0)
+    if (ImGui::DragFloat("##exposure", &factor, 0.01f * factor, 1e-12f, 1e12f, "x %.4g") && factor > 0)
         state.view_options.exposure = double{factor};
 }
 
