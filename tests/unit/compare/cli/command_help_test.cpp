@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // --help of each command: the options that it shows.
+#include "compare/audit/relations.h"
+#include "compare/bench/cases.h"
 #include "compare/cli/command_diff.h"
 #include "compare/cli/command_line.h"
+#include "compare/experiment/measures.h"
 #include "tests/support/command_lines.h"
 #include "tests/support/setting_samples.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <CLI/CLI.hpp>
 
@@ -16,6 +20,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -151,6 +156,35 @@ TEST(CommandLine, EverySettingIsAnOptionAsItsRowSays) {
         EXPECT_EQ(parsedAs<SettingsGroup>({command.name}).settings, defaults) << command.name;
     }
     EXPECT_EQ(commands, 10u);
+}
+
+// The help of an option that takes names from a table has all of them, in the table's order.
+TEST(CommandLine, HelpNamesAllThatAnOptionChoosesFrom) {
+    const auto namesOf = [](const auto& table) {
+        std::vector<std::string_view> names;
+        for (const auto& row : table) names.push_back(row.name);
+        return names;
+    };
+    std::vector<std::string_view> axes;
+    for (int axis = 0; axis <= static_cast<int>(bench::GrowthAxis::pixels); ++axis)
+        axes.push_back(nameOf(static_cast<bench::GrowthAxis>(axis)));
+    const std::tuple<std::string, const char*, std::vector<std::string_view>, const char*> options[] = {
+        {"audit", "--quantity", namesOf(audit::quantities()), ", "},
+        {"audit", "--relation", namesOf(audit::relations()), ", "},
+        {"bench", "--axes", axes, ", "},
+        {"choose", "--figure", namesOf(experiment::errorMetrics), "|"}};
+    for (const auto& [name, option, names, separator] : options) {
+        ASSERT_GE(names.size(), 3u);
+        const std::vector<Command> commands = allCommands();
+        const DescribedCommand described(*std::ranges::find(commands, name, &Command::name));
+        const CLI::Option& found = *described.app.get_option(option);
+        const std::string help = fmt::format(" {} {} ", found.get_type_name(), found.get_description()),
+                          all = fmt::format("{}", fmt::join(names, separator));
+        const std::size_t at = help.find(all);
+        ASSERT_NE(at, help.npos) << option << ": " << all << "\n" << help;
+        EXPECT_EQ(help[at - 1], ' ');
+        EXPECT_NE(std::string(". ").find(help[at + all.size()]), std::string::npos) << "and no other";
+    }
 }
 
 // Printed defaults that no variable of the parser holds, because the command finds the value.

@@ -60,12 +60,18 @@ std::vector<Light> punctual(std::vector<Light> lights) {
     return lights;
 }
 
+// Lights and camera, of a rig alone and of a whole scene.
 TEST(SceneGltf, ARigIsReadBackAsItIs) {
-    for (const std::string name :
-         {"builtin:suns", "builtin:points", "builtin:spots", "builtin:calibration"}) {
+    for (const auto& [name, whole] : {std::pair{"builtin:suns", false},
+                                      {"builtin:suns", true},
+                                      {"builtin:points", false},
+                                      {"builtin:points", true},
+                                      {"builtin:spots", false},
+                                      {"builtin:spots", true},
+                                      {"builtin:calibration", false}}) {
         const Scene scene = loadScene(name);
         const SceneView view = viewAt(scene, 0);
-        const WrittenScene rig = rigGltf(view);
+        const WrittenScene rig = whole ? sceneGltf(scene, view, SkinNormals::joints) : rigGltf(view);
         const Scene back = readBack(rig.glb);
         const Pose pose = poseAt(back, 0);
         const std::vector<Light> passed = punctual(view.lights);

@@ -4,13 +4,16 @@
 #include "compare/plot/plot.h"
 #include "compare/page/emitted.h"
 #include "compare/plot/axis.h"
+#include "compare/plot/labels.h"
 #include "tests/support/color_vision.h"
 #include "tests/support/report_builder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <regex>
 #include <sstream>
 
@@ -228,6 +231,128 @@ TEST(Plot, AnAxisIsNamedAboveIt) {
     ASSERT_EQ(name.size(), 1u);
     for (const std::string& tick : allOf(svg, "<text class=\"tick end\" x=\"[0-9.]+\" y=\"([0-9.]+)\">"))
         EXPECT_GT(std::stod(tick), std::stod(name[0]) + 12);
+}
+
+// ---- Geometry ----
+
+// The boxes of a plot's panels, by the lines of their axes.
+std::vector<PlotBox> boxesOf(const std::string& svg) {
+    std::vector<PlotBox> boxes;
+    for (const std::string& path : allOf(svg, "class=\"axis\" d=\"([^\"]*)\"")) {
+        PlotBox& box = boxes.emplace_back();
+        EXPECT_EQ(std::sscanf(path.c_str(), "M%lf %lfV%lfH%lf", &box.left, &box.top, &box.bottom, &box.right),
+                  4)
+            << path;
+    }
+    return boxes;
+}
+
+// On linear axes from 0 to 4, everything has its value's fraction of the panel's box.
+TEST(Plot, EverythingIsDrawnAtItsValues) {
+    Plot plot{.panels = {{.across = {.logarithmic = false}, .up = {.logarithmic = false}}}, .parts = {"p"}};
+    PlotPanel& panel = plot.panels[0];
+    panel.pointsOf("deferred", Path::deferred) = {
+        {.x = 1, .y = 2, .across = {0.5, 1.5}, .up = {1, 3}}, {.x = 4, .y = 3, .row = 5}, {.x = 2, .y = 4}};
+    panel.bars = {{{0, 2}, {0, 1}, 0, "b"}, {{2, 3}, {0, 1}, 0, "c", true}};
+    panel.limits = {{.x = 3, .name = "l"}, {.y = 1, .name = "m", .strict = false}};
+    panel.front = {{2, 1}, {1, 3}};
+    const std::string svg = svgOf(plot, PlotTarget::page);
+    const std::vector<PlotBox> boxes = boxesOf(svg);
+    ASSERT_EQ(boxes.size(), 1u);
+    const PlotBox& box = boxes[0];
+    const double width = box.right - box.left, height = box.bottom - box.top;
+    const auto x = [&](double value) { return fmt::format("{:.1f}", box.left + value / 4 * width); };
+    const auto y = [&](double value) { return fmt::format("{:.1f}", box.bottom - value / 4 * height); };
+    const auto lineOf = [&](const char* kind, double x1, double y1, double x2, double y2) {
+        return fmt::format("<path class=\"{}\" d=\"M{} {}L{} {}\"/>", kind, x(x1), y(y1), x(x2), y(y2));
+    };
+    const auto barOf = [&](const char* kind, double from, double to, const char* title) {
+        return fmt::format(
+            "<rect class=\"part {}\" x=\"{:.2f}\" y=\"{}\" width=\"{:.2f}\" height=\"{:.1f}\">"
+            "<title>{}</title></rect>",
+            kind, box.left + from / 4 * width, y(1), (to - from) / 4 * width, height / 4, title);
+    };
+    for (const std::string& shown :
+         {barOf("part0", 0, 2, "b"), barOf("past", 2, 3, "c"), lineOf("budget", 3, 4, 3, 0),
+          lineOf("usual", 0, 1, 4, 1), lineOf("bar", 0.5, 2, 1.5, 2), lineOf("bar", 1, 1, 1, 3),
+          fmt::format("class=\"front\" d=\"M{} {}V{}H{}V{}H{}\"", x(1), y(4), y(3), x(2), y(1), x(4)),
+          fmt::format("class=\"trace\" d=\"M{} {}L{} {}L{} {}\"", x(1), y(2), x(4), y(3), x(2), y(4)),
+          fmt::format("class=\"mark\" cx=\"{}\" cy=\"{}\"", x(1), y(2)),
+          fmt::format("class=\"mark\" cx=\"{}\" cy=\"{}\"", x(4), y(3)),
+          fmt::format("class=\"hit\" cx=\"{}\" cy=\"{}\"", x(4), y(3))})
+        EXPECT_EQ(countOf(svg, shown), 1u) << shown << "\n" << svg;
+    EXPECT_GT(width, 0);
+    EXPECT_GT(height, 0);
+}
+
+// Rows of panels have the plot's height, or the height of their categories. Below them is the legend, whose
+// rows have two short names or a long one.
+TEST(Plot, PanelsAndLegendFillThePicture) {
+    const auto sizeOf = [](const std::string& svg) {
+        PlotBox box{};
+        EXPECT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox"), "viewBox=\"%lf %lf %lf %lf\"", &box.left,
+                              &box.top, &box.right, &box.bottom),
+                  4);
+        return box;
+    };
+    for (const std::size_t columns : {1u, 2u}) {
+        Plot plot{.columns = columns, .height = 300};
+        for (std::size_t i = 0; i < 2 * columns; ++i) {
+            plot.panels.push_back({.across = {"time"}, .up = {"error"}});
+            plot.panels.back().pointsOf("", {}).push_back({1, 1});
+        }
+        const std::string svg = svgOf(plot, PlotTarget::page);
+        const std::vector<PlotBox> boxes = boxesOf(svg);
+        ASSERT_EQ(boxes.size(), 2 * columns);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const PlotBox &box = boxes[i], &first = boxes[0];
+            EXPECT_EQ(box.top - first.top, i < columns ? 0 : 300);
+            EXPECT_EQ(box.bottom - box.top, first.bottom - first.top);
+            EXPECT_EQ(box.right - box.left, first.right - first.left);
+            if (i % columns == 0) {
+                EXPECT_EQ(box.left, first.left);
+            } else {
+                EXPECT_GT(box.left, boxes[i - 1].right);
+            }
+        }
+        const PlotBox whole = sizeOf(svg);
+        EXPECT_GT(boxes[0].left, 0);
+        EXPECT_GT(boxes[0].bottom - boxes[0].top, 150);
+        EXPECT_LT(boxes.back().right, whole.right);
+        EXPECT_GE(whole.bottom, 600);
+        EXPECT_LT(whole.bottom, 620) << "no legend";
+        const std::vector<std::string> texts =
+            allOf(svg, "<text class=\"[^\"]*\" x=\"[0-9.-]+\" y=\"([^\"]+)\"");
+        ASSERT_GE(texts.size(), 4 * columns);
+        for (const std::string& at : texts) {
+            EXPECT_GT(std::stod(at), 12);
+            EXPECT_LT(std::stod(at), 600);
+        }
+        // An entry more is a row more, unless it fits beside the last.
+        const auto entries = [&](const std::vector<std::string>& names) {
+            Plot with = plot;
+            for (const std::string& name : names) with.panels[0].limits.push_back({.x = 1, .name = name});
+            const std::string drawn = svgOf(with, PlotTarget::page);
+            const std::vector<std::string> rows =
+                allOf(drawn, "<g transform=\"translate\\([0-9.]+ ([0-9.]+)\\)\">");
+            EXPECT_EQ(rows.size(), names.size());
+            for (const std::string& row : rows) {
+                EXPECT_GT(std::stod(row), 600);
+                EXPECT_LT(std::stod(row), sizeOf(drawn).bottom - 10);
+            }
+            return sizeOf(drawn).bottom - whole.bottom;
+        };
+        const double row = entries({"a"});
+        EXPECT_GT(row, 18) << "a line of text";
+        EXPECT_EQ(entries({"a", "b"}), row);
+        EXPECT_EQ(entries({"a", "b", "c"}), 2 * row);
+        EXPECT_EQ(entries({"a", "a name that is far too long for half of a row"}), 2 * row);
+    }
+    Plot bars{.panels = {{.up = {.categories = {"a"}}}, {.up = {.categories = {"a", "b", "c"}}}}};
+    const std::vector<PlotBox> boxes = boxesOf(svgOf(bars, PlotTarget::page));
+    ASSERT_EQ(boxes.size(), 2u);
+    EXPECT_EQ(boxes[1].bottom - boxes[1].top, 3 * (boxes[0].bottom - boxes[0].top));
+    EXPECT_GT(boxes[1].top, boxes[0].bottom);
 }
 
 // ---- Colours ----

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Position of images on a page: the baseline left, the other right, and their difference. Checked by the
-// pixels of the files and data URIs.
+// pixels of the files and data URIs. And the scale of the error map.
 #include "compare/report/report.h"
+#include "compare/verdict/rules.h"
 #include "shared/image/png.h"
 #include "tests/support/base64.h"
 #include "tests/support/files.h"
@@ -138,6 +139,38 @@ TEST(ReportImages, EveryPairHasItsOwnImages) {
         EXPECT_EQ(shown.right, right) << card;
         EXPECT_EQ(shown.left_name, first) << card;
         EXPECT_EQ(shown.right_name, second) << card;
+    }
+}
+
+// It ends at the limit of single errors; without one, at the largest finite error.
+TEST(ReportImages, AnErrorMapEndsAtTheLimitOrTheLargestFiniteError) {
+    struct Bounded {
+        const char* bound;
+        float first;  // at the first pixel of the test
+        std::optional<double> limit;
+        double top;
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const auto& [bound, first, limit, top] : {Bounded{R"("max": 0.125)", 0.25f, 0.125, 0.125},
+                                                   {R"("max": 0.125)", nan, 0.125, 0.125},
+                                                   {R"("rmse": 1)", 0.25f, {}, 0.5},
+                                                   {R"("rmse": 1)", 1.25f, {}, 1},
+                                                   {R"("rmse": 1)", nan, {}, 0.5}}) {
+        std::vector<Frame> frames = greyFrames(0.25f, 0.5f, "builtin:one");
+        Image& test = frames[1].channels[Channel::roughness];
+        test.at(0, 0) = first;
+        test.at(2, 1) = 0.75f;
+        CompareOptions options;
+        options.rules = rulesFromJson(
+            fmt::format(R"({{"rules": [{{"channel": "*", {}, "because": "any"}}]}})", bound), "t.json");
+        const Report report = makeReport({{frames}}, {"a CPU", "1.0", "cpu"}, options);
+        const auto& channels = report.comparisons[0].channels;
+        const auto at = std::ranges::find(channels, &debugMode(Channel::roughness), &ChannelDiff::mode);
+        ASSERT_NE(at, channels.end());
+        const ChannelImages images =
+            layoutOf(report, {}).images[0][static_cast<std::size_t>(at - channels.begin())];
+        EXPECT_EQ(images.error_limit, limit) << bound << " " << first;
+        EXPECT_EQ(images.error_top, top) << bound << " " << first;
     }
 }
 

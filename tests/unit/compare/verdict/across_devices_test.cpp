@@ -10,8 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <string>
 
 namespace diptych {
 namespace {
@@ -385,6 +388,88 @@ TEST_F(AcrossDevicesPair, AShadowMayEndBetweenBothPositionsOfAPixel) {
     for (int x = 15; x < 20; ++x)
         for (int y = 20; y < 24; ++y) visible.at(x, y) += 0.01f;
     EXPECT_NE(faults().find(" not beside a shadow boundary"), std::string::npos);
+}
+
+// Each kind of bound states its reason, with the numbers of both devices.
+TEST_F(AcrossDevicesPair, EachToleranceHasItsReason) {
+    for (Frame& frame : report_.frames) frame.requested.clear();
+    across_.devices[0].sub_texel_bits = 6;
+    across_.devices[1].sub_texel_bits = 8;
+    across_.devices[1].sub_pixel_bits = 8;
+    for (DevicePrecision& device : across_.devices) device.texels->linear_filter.rounding = 0.25 / 255;
+    for (float& value : across_.devices[1].texels->srgb) value *= 1.015f;
+    across_.texels[Channel::roughness] = Image(across_side, across_side, 1);
+    const auto expectReasons = [&](const std::map<Channel, std::string>& reasons) {
+        const Comparison comparison = compared();
+        for (const auto& [mode, reason] : reasons) {
+            const auto channel = std::ranges::find(comparison.channels, &debugMode(mode), &ChannelDiff::mode);
+            ASSERT_NE(channel, comparison.channels.end()) << debugMode(mode).name;
+            EXPECT_EQ(channel->tolerance.because, reason) << debugMode(mode).name;
+        }
+    };
+    const std::string moved =
+        "vertices snap to 1/32 and 1/256 of a pixel: the bound is that fraction of the change to the next "
+        "pixel";
+    const std::string rounded = moved + "; plus 9.5e-06 of the value for rounding";
+    const std::string filtered =
+        moved +
+        "; filter weights have 6 and 8 bits; Vulkan does not fix the level of detail, so each device may "
+        "return any mean of the texels in reach; ";
+    const std::string index = "an index; where it changes, a neighbour's value is allowed",
+                      shadow =
+                          "float32 weights, 1e-4 each; at a shadow boundary, texels of the map may show "
+                          "another triangle",
+                      part = "a part of lit, which is compared",
+                      list =
+                          "each device uses the cell size that is cheapest on it; lights missing from a "
+                          "list show in lit",
+                      pane =
+                          "surfaces with transmission, drawn over others: no more than neighbouring "
+                          "pixels differ",
+                      light =
+                          "a shades the surfaces that b rendered, both in float32: 1e-4 each before "
+                          "blending; after blending, no more than neighbouring pixels differ";
+    expectReasons({{Channel::material_id, "an index is stored exactly"},
+                   {Channel::cascade, index},
+                   {Channel::lightmapped, index},
+                   {Channel::geometric_normal,
+                    "a triangle's normal, from positions rounded to 2^-24 of their distance, then packed"},
+                   {Channel::depth, rounded},
+                   {Channel::position, rounded},
+                   {Channel::transmittance, rounded},
+                   {Channel::metallic, moved},
+                   {Channel::albedo, filtered + "their sRGB decoding differs by up to 1.5 %"},
+                   {Channel::roughness, filtered + "filters round by up to 0.5 of an 8-bit step"},
+                   {Channel::dispersion, pane},
+                   {Channel::transmission, pane},
+                   {Channel::lit, light},
+                   {Channel::lit_specular, light},
+                   {Channel::lit_environment, light},
+                   {Channel::shadow_visibility, shadow},
+                   {Channel::local_visibility, shadow},
+                   {Channel::lit_clearcoat, part},
+                   {Channel::lit_sheen, part},
+                   {Channel::light_count, list},
+                   {Channel::list_overflow, list}});
+    // Textures on panes, area lights and packed G-buffers add theirs.
+    needs_.textures = 1;
+    needs_.light_counts.back() = 1;
+    for (Frame& frame : report_.frames) {
+        frame.settings.path = Path::deferred;
+        frame.settings.gbuffer = GBufferEncoding::standard;
+    }
+    expectReasons(
+        {{Channel::depth, rounded},
+         {Channel::metallic, moved + "; plus the quantization bound of both G-buffers, 0.00392"},
+         {Channel::roughness, filtered +
+                                  "filters round by up to 0.5 of an 8-bit step; plus the quantization bound "
+                                  "of both G-buffers, 0.000245"},
+         {Channel::dispersion, pane},
+         {Channel::transmission, pane + "; filters round by up to 0.5 of an 8-bit step"},
+         {Channel::lit,
+          "a shades the surfaces that b rendered, both in float32: 1e-4 each (relative to at least a tenth "
+          "of the mean luminance: area-light integrals cancel) before blending; after blending, no more "
+          "than neighbouring pixels differ"}});
 }
 
 TEST_F(AcrossDevicesPair, ANumberAgainstNoneFails) {

@@ -16,8 +16,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace diptych {
 namespace {
@@ -117,6 +119,54 @@ TEST(Rig, AreaLightsAreAMixAsBrightAsPoints) {
     for (const int count : kinds) EXPECT_GT(count, 60);  // of 100 expected; five standard deviations are 41
     const auto mixed = makeLights("point:4,area:2", 3, ROOM);
     EXPECT_EQ(mixed[4].position, lights[0].position) << "whatever else there is";
+}
+
+// Random numbers of spot and area lights, as fractions of their ranges.
+std::map<std::string, std::vector<double>> fractionsOf(const std::vector<Light>& lights) {
+    std::map<std::string, std::vector<double>> of;
+    const auto turn = [](double y, double x) { return std::atan2(y, x) / glm::two_pi<double>() + 0.5; };
+    const auto add = [&](const char* name, double value, double low, double high) {
+        of[name].push_back((value - low) / (high - low));
+    };
+    for (const Light& light : lights) {
+        const glm::dvec3& d = light.direction;
+        add("tilt squared", std::pow(glm::degrees(std::acos(std::min(-d.y, 1.0))) / 35, 2), 0, 1);
+        add("azimuth", turn(d.z, d.x), 0, 1);
+        const double range = double{light.range};
+        if (light.kind == LightKind::spot) {
+            add("cone", glm::degrees(double{light.outer_cone}), 20, 40);
+            continue;
+        }
+        // The cross product of the direction with a horizontal vector, whose azimuth is uniform.
+        add("axis", turn(light.axis.z, light.axis.x), 0, 1);
+        if (light.kind == LightKind::rect) {
+            add("width", double{light.width} / range, 0.2, 0.5);
+            add("height", double{light.height} / double{light.width}, 0.25, 1);
+        } else if (light.kind == LightKind::disc) {
+            add("radius", double{light.radius} / range, 0.1, 0.25);
+        } else {
+            add("length", double{light.length} / range, 0.3, 0.7);
+            add("thickness", double{light.radius} / double{light.length}, 0.01, 0.05);
+        }
+    }
+    return of;
+}
+
+// Kolmogorov and Smirnov: the distance of N uniform numbers' distribution exceeds 2 / sqrt(N) with a
+// probability of 0.07 %.
+TEST(Rig, RandomNumbersAreUniform) {
+    const auto all = fractionsOf(makeLights("spot:1000,area:3000", 3, ROOM));
+    EXPECT_EQ(all.size(), 9u);
+    for (auto [name, fractions] : all) {
+        std::ranges::sort(fractions);
+        const auto count = static_cast<double>(fractions.size());
+        EXPECT_GT(count, 900) << name;
+        double distance = 0;
+        for (std::size_t i = 0; i < fractions.size(); ++i)
+            distance = std::max({distance, std::abs(fractions[i] - static_cast<double>(i) / count),
+                                 std::abs(fractions[i] - static_cast<double>(i + 1) / count)});
+        EXPECT_LT(distance, 2 / std::sqrt(count)) << name;
+    }
 }
 
 TEST(Rig, SixPointLightsReachTheMiddle) {
