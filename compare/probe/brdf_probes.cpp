@@ -268,7 +268,6 @@ Probe lightProbe() {
         return ulpOf(output == 0 ? double{in[11]} * dot(exactVec(in + 1), exactVec(in + 7)) / std::numbers::pi
                                  : expected);
     };
-    p.unit = "ULP";
     // glTF 2.0, appendix B, with KHR_materials_specular: a metal and a dielectric, mixed.
     p.definition = [](const float* in, double* out) {
         const Vec<double> n = unit(exactVec(in + 1)), v = unit(exactVec(in + 4)), l = unit(exactVec(in + 7));

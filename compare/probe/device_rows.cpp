@@ -55,6 +55,7 @@ std::vector<float> DeviceRows::run(const Probe& probe, const std::vector<float>&
     const GpuBuffer to(device_, "probe outputs", out.size() * sizeof(float),
                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::readback);
     std::memcpy(from.mapped(), in.data(), in.size() * sizeof(float));
+    std::memset(to.mapped(), 0xff, out.size() * sizeof(float));  // NaN where the shader writes nothing
     DescriptorSets descriptors(device_, set_, row_bindings, 1);
     descriptors.buffer(0, 0, from.handle());
     descriptors.buffer(0, 1, to.handle());

@@ -265,7 +265,6 @@ Probe anyMomentsProbe(const char* name, std::uint32_t shadows) {
     p.ins = 11;
     p.rows = 1u << 15;
     p.features = {{gpu::FEATURE_shadows, shadows}};
-    p.unit = "ULP";
     p.make = [shadows](Random& random, std::size_t, float* in) {
         makeShadowLight(random, in);
         for (int i = 0; i < 4; ++i) {

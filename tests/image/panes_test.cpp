@@ -282,36 +282,47 @@ TEST(Panes, LeavesOfOtherWeightsAreNotShadedAsOne) {
     EXPECT_GT(mixed, 100u) << "no pixel shows both";
 }
 
-// Lights that reach nothing fill several batches, and change no channel of light.
+// Two lamps in front of a leaf under a sheen and a coat, and two behind. Lamps that reach nothing fill two
+// more batches, and change no channel of light.
 TEST(Panes, LayersAreTheSameInLightBatches) {
-    Scene few = loadScene("builtin:transmission");
-    for (Material& m : few.materials) {
-        m.transmission = 0;
-        m.ior = 1.5f;  // no attachment for F0
-        m.alpha_mode = AlphaMode::opaque;
-    }
-    Scene many = few;
-    Light far = many.lights.back();
-    far.position = {1e4, 0, 0};
-    far.range = 0.1f;
     const std::size_t max = device().profile().light_iterations;
-    many.lights.insert(many.lights.end(), 2 * max + 7, far);
-    Settings settings =
-        with(smallImage(GBufferEncoding::full), "size 24x14 assign every ambient 0.1,0.2,0.3");
-    std::vector<Channel> light{Channel::light_count};
-    for (const Channel channel : litModes)
-        if (channel != Channel::lit_environment) light.push_back(channel);
-    const std::vector<Frame> whole = bothPaths(few, settings, light),
-                             parts = bothPaths(many, settings, light);
-    for (std::size_t path = 0; path < 2; ++path) {
-        EXPECT_GT(*std::ranges::max_element(parts[path].channels.at(Channel::light_count).data),
-                  static_cast<float>(max));
-        for (const auto& [channel, image] : whole[path].channels) {
-            if (channel == Channel::light_count) continue;
-            EXPECT_EQ(differingPixels(image, parts[path].channels.at(channel)), 0u)
-                << parts[path].name << " " << debugMode(channel).name;
+    const auto leafUnder = [](std::size_t idle) {
+        Builder b;
+        b.camera("front", {0, 0, 4}, {0, 0, 0}, 30, 0.1, 100);
+        const int material = b.material("leaf", {{0.4f, 0.5f, 0.2f}, 0, 0.3f});
+        Material& m = b.last();
+        m.clearcoat = 0.8f;
+        m.clearcoat_roughness = 0.3f;
+        m.sheen_color = {0.9f, 0.6f, 0.7f};
+        m.sheen_roughness = 0.6f;
+        m.diffuse_transmission = 0.5f;
+        m.diffuse_transmission_color = {0.2f, 0.9f, 0.4f};
+        b.add("leaf", quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), material, glm::dvec3(0.0));
+        b.point({-0.5, 0.3, 1}, {1.0f, 0.7f, 0.4f}, 2, 5);
+        b.point({0.2, -0.4, -1}, {0.4f, 0.7f, 1.0f}, 2, 5);
+        b.point({0.6, 0.1, 1.5}, {0.8f, 1.0f, 0.6f}, 2, 5);
+        b.point({-0.3, 0.5, -0.7}, {1.0f, 0.5f, 0.9f}, 2, 5);
+        for (std::size_t i = 0; i < idle; ++i) b.point({1e4, 0, 0}, {1, 1, 1}, 1, 0.1f);
+        return std::move(b.scene);
+    };
+    const Settings settings =
+        with(smallImage(GBufferEncoding::full), "size 8x4 assign every ambient 0.1,0.2,0.3");
+    const std::vector<Channel> shown{
+        Channel::light_count, Channel::lit,         Channel::lit_diffuse,   Channel::lit_specular,
+        Channel::lit_sheen,   Channel::lit_ambient, Channel::lit_clearcoat, Channel::lit_transmission};
+    const std::vector<Frame> whole = bothPaths(leafUnder(0), settings, shown),
+                             parts = bothPaths(leafUnder(2 * max), settings, shown);
+    for (std::size_t path = 0; path < 2; ++path)
+        for (const Channel channel : shown) {
+            const float brightest = *std::ranges::max_element(parts[path].channels.at(channel).data);
+            if (channel == Channel::light_count) {
+                EXPECT_GT(brightest, static_cast<float>(2 * max)) << "three batches";
+            } else {
+                EXPECT_GT(brightest, 0.01f) << debugMode(channel).name;
+                EXPECT_EQ(differingPixels(whole[path], parts[path], channel), 0u)
+                    << parts[path].name << " " << debugMode(channel).name;
+            }
         }
-    }
 }
 
 }  // namespace

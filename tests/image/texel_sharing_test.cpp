@@ -240,5 +240,55 @@ TEST(TexelSharing, PackedTexturesAreNearTheirOwnSamples) {
     }
 }
 
+// Two texels magnified to four along each axis, as their own wrap mode along it has it: those in the middle
+// are 1/4 and 3/4 between both, those at an edge are an end's, or 1/4 from the other end's. One pixel a
+// texel.
+TEST(TexelSharing, PackedTexelsAreMagnifiedAsTheyRepeat) {
+    constexpr int side = 4;
+    const std::array<std::array<double, 2>, 2> metal{{{0, 200}, {80, 240}}}, rough{{{240, 40}, {120, 0}}};
+    for (const Wrap along_s : {Wrap::repeat, Wrap::clamp_to_edge})
+        for (const Wrap along_t : {Wrap::repeat, Wrap::clamp_to_edge}) {
+            Scene scene = square();
+            scene.images = {noiseOf(side, side, 3), noiseOf(side, side, 4), {"two", 2, 2, {}}};
+            for (const std::size_t y : {0u, 1u})
+                for (const std::size_t x : {0u, 1u})
+                    for (const double code : {0.0, rough[y][x], metal[y][x], 255.0})
+                        scene.images[2].rgba.push_back(static_cast<std::uint8_t>(code));
+            Sampler nearest = scene.textures[0].sampler;
+            nearest.wrap_s = along_s;
+            nearest.wrap_t = along_t;
+            scene.textures = {{0, nearest}, {1, nearest}, {2, nearest}};
+            Material& m = scene.materials[0];
+            m.base_color_texture.texture = 0;
+            m.normal_texture.texture = 1;
+            m.metallic_roughness_texture.texture = 2;
+            ASSERT_EQ(texelsOnDevice(scene, TexturePrecision::packed)[gpu::SLOT_metallic_roughness],
+                      gpu::TEXEL_ALPHAS);
+            Renderer renderer(device(), scene, pipelines());
+            const Frame drawn = drawnBy(Path::deferred, renderer,
+                                        with(smallImage(GBufferEncoding::full), "size 4x4 textures packed"),
+                                        {metallic, roughness});
+            // Fraction of the second texel.
+            const auto second = [](int i, Wrap wrap) {
+                const bool repeats = wrap == Wrap::repeat;
+                return std::array{repeats ? 0.25 : 0, 0.25, 0.75,
+                                  repeats ? 0.75 : 1}[static_cast<std::size_t>(i)];
+            };
+            const auto magnified = [&](const std::array<std::array<double, 2>, 2>& codes, int x, int y) {
+                const double u = second(x, along_s), v = second(y, along_t);
+                return ((codes[0][0] * (1 - u) + codes[0][1] * u) * (1 - v) +
+                        (codes[1][0] * (1 - u) + codes[1][1] * u) * v) /
+                       255;
+            };
+            for (int y = 0; y < side; ++y)
+                for (int x = 0; x < side; ++x) {
+                    EXPECT_NEAR(drawn.channels.at(metallic).at(x, y, 0), magnified(metal, x, y), 0.51 / 255)
+                        << x << ", " << y;
+                    EXPECT_NEAR(drawn.channels.at(roughness).at(x, y, 0), magnified(rough, x, y), 0.51 / 255)
+                        << x << ", " << y;
+                }
+        }
+}
+
 }  // namespace
 }  // namespace diptych::tests

@@ -172,6 +172,19 @@ TEST(Brdf, GgxIsStableNearTheHighlight) {
         << "the comparison has lost its point: the textbook form is stable here";
 }
 
+// What the reference reflects, in double, of the row that push() made.
+reference::Reflected ofReference(const float* row) {
+    const auto in = [&](std::size_t at) { return double{row[at]}; };
+    reference::Surface s;
+    s.to_viewer = {in(0), in(1), in(2)};
+    s.roughness = in(6);
+    s.metallic = in(7);
+    s.albedo = glm::dvec3(in(8));
+    s.dielectric_f0 = glm::dvec3(in(9));
+    s.dielectric_f90 = in(10);
+    return reference::Brdf(s)({in(3), in(4), in(5)});
+}
+
 // Compared with the reference in double, which clamps roughness and n.v by constants of its own. Includes
 // views below the normal's horizon, which normal maps cause, and the mirror direction for every second
 // light.
@@ -201,23 +214,48 @@ TEST(Brdf, IsTheReferences) {
     int below = 0, sharp = 0;
     for (std::size_t i = 0; i < pairs; ++i) {
         const auto in = [&](std::size_t at) { return double{input[i * 11 + at]}; };
-        reference::Surface s;
-        s.to_viewer = {in(0), in(1), in(2)};
-        s.roughness = in(6);
-        s.metallic = in(7);
-        s.albedo = glm::dvec3(in(8));
-        s.dielectric_f0 = glm::dvec3(in(9));
-        s.dielectric_f90 = in(10);
-        const glm::dvec3 l(in(3), in(4), in(5));
-        const reference::Reflected expected = reference::Brdf(s)(l);
+        const reference::Reflected expected = ofReference(&input[i * 11]);
         EXPECT_NEAR(out[2 * i], expected.diffuse.g, 1e-5) << i;
         EXPECT_NEAR(out[2 * i + 1], expected.specular.g, 1e-3 * expected.specular.g + 1e-6)
-            << i << ": roughness " << s.roughness << ", n.v " << in(2) << ", n.l " << in(5);
+            << i << ": roughness " << in(6) << ", n.v " << in(2) << ", n.l " << in(5);
         below += in(2) + in(5) <= 0 && in(5) > 0;
-        sharp += s.roughness < 0.045 && expected.specular.g > 1;
+        sharp += in(6) < 0.045 && expected.specular.g > 1;
     }
     EXPECT_GT(below, 20) << "no microfacet that faces down is tried";
     EXPECT_GT(sharp, 20) << "no highlight of the least roughness is tried";
+}
+
+// Half floats, of roughness 0.5 to 1, with n.v and n.l of at least 0.1 and |l + v| of at least 1. `ulp` is an
+// operation's error if the device truncates. To first order, the half vector turns by 4.4 ulp, which D
+// magnifies by 2 (1 - alpha^2) / alpha; its length (8), the other operations of D (30) and of the visibility
+// (12) err by 50 ulp. Schlick's weight errs by 4 ulp, because 1 - v.h is at most 1/2.
+TEST(Brdf, InHalfFloatsItIsNearTheReference) {
+    Probes probes;
+    constexpr double ulp = 0x1p-10;
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> unit(0, 1), angle(0, 6.28);
+    std::vector<float> input;
+    constexpr std::size_t pairs = 2000;
+    while (input.size() < pairs * 11) {
+        const Vec v = direction(0.1 + 0.9 * unit(random), angle(random)),
+                  l = direction(0.1 + 0.9 * unit(random), angle(random));
+        if (std::hypot(v[0] + l[0], v[1] + l[1], v[2] + l[2]) < 1) continue;
+        push(input, v, l,
+             {.roughness = 0.5 + 0.5 * unit(random), .metallic = unit(random) < 0.5 ? 0.0 : 1.0, .f0 = 0.2});
+    }
+    const std::vector<float> out = probes.run("brdf", input, 11, 2, {{gpu::FEATURE_half_shading, 1}});
+    std::size_t rounded = 0;
+    for (std::size_t i = 0; i < pairs; ++i) {
+        const float* const row = &input[i * 11];
+        const reference::Reflected expected = ofReference(row);
+        const double alpha = double{row[6]} * double{row[6]}, specular = expected.specular.g;
+        const double lobe = 50 + 8.8 * (1 - alpha * alpha) / alpha, fresnel = row[7] > 0 ? 0 : 4 / 0.2;
+        EXPECT_NEAR(out[2 * i], expected.diffuse.g, 16 * ulp * expected.diffuse.g) << i;
+        EXPECT_NEAR(out[2 * i + 1], specular, (lobe + fresnel) * ulp * specular)
+            << i << ": alpha " << alpha << ", n.v " << row[2] << ", n.l " << row[5];
+        rounded += std::abs(double{out[2 * i + 1]} - specular) > 1e-4 * specular;
+    }
+    EXPECT_GT(rounded, pairs / 2) << "it is computed in 32 bits";
 }
 
 // A quarter of the light that enters the base is transmitted, the other three are diffuse, and the layer's

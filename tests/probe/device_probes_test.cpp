@@ -96,6 +96,13 @@ TEST(DeviceProbesOnDevice, PlantedFaultsAreFound) {
     EXPECT_TRUE(isCaught("froxel of a pixel and depth", [](float* out) { out[0] += 1; }));
 }
 
+TEST(DeviceProbesOnDevice, WhatTheShaderDoesNotWriteIsNoNumber) {
+    Probe probe = probeNamed("uint to float");
+    probe.function = 1000;  // not in operations.comp
+    DeviceRows rows(probeDevice());
+    for (const float x : rows.run(probe, inputsOf(probe, 0, 100))) EXPECT_TRUE(std::isnan(x));
+}
+
 // NaN fails whatever the tolerance; so does a decreasing code.
 TEST(DeviceProbesOnDevice, NoNumbersAndStepsBackAreFound) {
     const auto spoil = [](float* out) { out[0] = std::numeric_limits<float>::quiet_NaN(); };

@@ -4,11 +4,18 @@
 #include "compare/probe/groups.h"
 #include "compare/probe/run.h"
 
+#include "tests/support/layer_formulas.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
 #include <set>
+#include <string>
 
 namespace diptych::probe {
 namespace {
@@ -42,6 +49,83 @@ TEST(DeviceProbes, EachHasANameInputsAndAReason) {
         EXPECT_EQ(p.rows % p.line, 0u) << p.name;
         EXPECT_LE(std::max(p.ins, p.outs), widest) << p.name;
     }
+}
+
+// A unit says what an error is divided by: the ULP of a number, a code's step, or the ULP of terms that only
+// the inputs determine.
+TEST(DeviceProbes, TheUnitNamesTheStep) {
+    const std::map<std::string, std::function<double(double expected)>> of{
+        {"ULP", [](double e) { return ulpOf(e); }},
+        {"ULP of 1", [](double) { return ulpOf(1); }},
+        {"ULP of 1+L", [](double e) { return ulpOf(1 + e); }},
+        {"ULP of half", [](double e) { return std::max(ulpOf(e) * 0x1p13, 0x1p-24); }}};
+    const std::set<std::string> terms{"ULP of sum", "ULP of point", "ULP of 1/d2"}, codes{"steps", "slices"};
+    std::set<std::string> seen;
+    for (const Probe& p : allProbes()) {
+        seen.insert(p.unit);
+        const std::vector<float> in = inputsOf(p, 0, 64);
+        // Where outputs differ, the unit names the first of a light's (irradiance) or the last of a BRDF's.
+        const auto step = [&](std::size_t row, std::size_t output, double expected) {
+            return p.step ? p.step(&in[row * p.ins], output, expected) : ulpOf(expected);
+        };
+        std::set<double> steps;
+        for (std::size_t row = 0; row < 64; ++row)
+            for (const double expected : {0.01, 5.0}) {
+                if (of.contains(p.unit)) {
+                    ASSERT_EQ(step(row, p.outs - 1, expected), of.at(p.unit)(expected)) << p.name;
+                } else if (terms.contains(p.unit)) {
+                    ASSERT_EQ(step(row, 0, expected), step(row, 0, 1)) << p.name;
+                    steps.insert(step(row, 0, expected));
+                } else {
+                    ASSERT_TRUE(codes.contains(p.unit) && (p.evaluate || p.step)) << p.unit << ": " << p.name;
+                }
+            }
+        if (terms.contains(p.unit)) {
+            EXPECT_GT(steps.size(), 1u) << p.name << " has one step, which a unit can name";
+        }
+    }
+    EXPECT_EQ(seen.size(), of.size() + terms.size() + codes.size());
+}
+
+// Two kinds of probe accept it: equal results of an exchanged pair, and any fraction for moments of no
+// distribution.
+TEST(DeviceProbes, AResultOfZeroFails) {
+    for (const Probe& p : allProbes()) {
+        const std::vector<float> in = inputsOf(p, 0, std::max<std::size_t>(256 / p.line, 1) * p.line);
+        const std::vector<float> zeros(in.size() / p.ins * p.outs);
+        const bool any = p.name == "D V of l and v exchanged" || p.name.starts_with("EVSM of any ") ||
+                         p.name.starts_with("MSM of any ");
+        EXPECT_EQ(concluded(p, evaluated(p, 0, in, zeros)).passed, any) << p.name;
+    }
+}
+
+// The mean over a line's half vectors is the lobe's albedo, by another quadrature, if they are distributed as
+// their density says. 64 low-discrepancy samples of lobes this wide err by less than 0.01.
+TEST(DeviceProbes, TheEnergyOfALobeIsItsAlbedo) {
+    const Probe& p =
+        *std::ranges::find(allProbes(), std::string_view("energy of the lobe, F = 1"), &Probe::name);
+    std::size_t lobes = 0;
+    for (std::size_t line = 0; line < p.rows / p.line; line += 97) {
+        const std::vector<float> in = inputsOf(p, line * p.line, p.line);
+        const auto vector = [&](std::size_t at) {
+            return glm::dvec3(double{in[at]}, double{in[at + 1]}, double{in[at + 2]});
+        };
+        const double alpha = double{in[0]} * double{in[0]};
+        const glm::dvec3 v = vector(4);
+        if (alpha < 0.15 || v.z < 0.2) continue;
+        ++lobes;
+        const auto lobe = [&](const glm::dvec3& l) { return stretchedLobe(glm::dvec2(alpha), l, v); };
+        std::vector<float> out;
+        for (std::size_t k = 0; k < p.line; ++k) {
+            const glm::dvec3 l = vector(k * p.ins + 7);
+            out.push_back(l.z > 0 ? static_cast<float>(lobe(l) / l.z) : 0.0f);
+        }
+        double albedo = 0;
+        for (const auto& [l, weight] : reflectedDirections(v, alpha, 128, 64)) albedo += lobe(l) * weight;
+        EXPECT_NEAR(evaluated(p, line * p.line, in, out).worst.got, albedo, 0.01)
+            << "alpha " << alpha << ", n.v " << v.z;
+    }
+    EXPECT_GT(lobes, 12u);
 }
 
 // The first three inputs are M^-1; only the cosine has the identity.

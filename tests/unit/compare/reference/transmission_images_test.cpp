@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Images of panes and slabs: what is seen through them, in which order, through haze, and in furnaces.
-#include "compare/reference/light/haze.h"
 #include "tests/support/layer_table.h"
 #include "tests/support/reference_scene.h"
 
@@ -286,22 +285,39 @@ TEST(ReferenceTransmission, RoughnessBlursAnEdgeEvenly) {
 
 // ---- haze --------------------------------------------------------------------------------------------
 
-// The light behind has the haze of its whole way; the pane's own counts for what it hides.
+// Air whose density halves every 2 m, seen downwards. Transmittance over a length is exp(-the mean extinction
+// times it), and air of one albedo under even light scatters that light's fraction that it does not
+// transmit. The light behind has the haze in front of the pane and that from where it leaves the pane.
 TEST(ReferenceTransmission, HazeLiesOnTheWholeWay) {
     Material m = clearPane();
     m.base_color = {0.25f, 1, 0.5f, 1};
-    const Scene scene = windowScene(m);
+    const glm::dvec3 eye(-2, 3, 3), along = -glm::normalize(eye), tint(0.25, 1, 0.5),
+                                    extinction(0.1, 0.2, 0.4);
     Air air;
-    air.aerosols = {glm::dvec3(0.1), glm::dvec3(0.2), 1000};
+    air.ground = 1;
+    air.aerosols = {extinction * 0.5, extinction, 2 / std::log(2.0)};
     air.ambient = glm::dvec3(0.5);
-    const glm::dvec3 along = obliqueRay(), floor = onFloor({0, 0, 0});
-    const Haze haze(air, obliqueEye);
-    const Hazed whole = haze.along(glm::dvec3(0), along, glm::distance(obliqueEye, floor)),
-                before = haze.along(glm::dvec3(0), along, glm::length(obliqueEye));
-    const glm::dvec3 tint(0.25, 1, 0.5);
-    const glm::dvec3 expected =
-        tint * (whole.transmittance * floorAt(floor) + whole.scattered) + (1.0 - tint) * before.scattered;
-    expectCentre(litOf(captured(scene, oblique(), air)), expected, 1e-5, "haze");
+    const auto passes = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        const auto density = [&](double y) { return std::exp(-(y - air.ground) / air.aerosols.scale); };
+        const double mean = (density(to.y) - density(from.y)) * air.aerosols.scale / (from.y - to.y);
+        return glm::exp(-extinction * mean * glm::distance(from, to));
+    };
+    const auto through = [&](const glm::dvec3& light, const glm::dvec3& transmittance) {
+        return light * transmittance + 0.5 * air.ambient * (1.0 - transmittance);
+    };
+    for (const float thickness : {0.0f, 0.5f}) {
+        m.thickness = thickness;
+        const glm::dvec3 inside = glm::dvec3(along.x, along.y, 0) / 1.5,
+                         leaves = glm::dvec3(inside.x, inside.y, -std::sqrt(1 - glm::dot(inside, inside))) *
+                                  double{thickness},
+                         floor = leaves + along * ((-2 - leaves.z) / along.z);
+        const glm::dvec3 path = glm::dvec3(0.3, 0, -1) - floor,
+                         lit(path.z / std::pow(glm::length(path), 3) / pi);
+        const glm::dvec3 expected =
+            through(tint * through(lit, passes(leaves, floor)), passes(eye, glm::dvec3(0)));
+        expectCentre(litOf(captured(windowScene(m), viewFrom(eye, {0, 0, 0}, 1, 1, 0.001), air)), expected,
+                     1e-5, thickness > 0 ? "slab" : "thin wall");
+    }
 }
 
 }  // namespace
