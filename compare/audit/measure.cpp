@@ -157,13 +157,11 @@ Measurer::Measurer(Device& device, const Subject& subject, std::function<void(co
     : device_(device), subject_(subject), on_step_(std::move(onStep)), pipelines_(makePipelineSet(device)) {}
 
 Frame Measurer::litOfSurfaces(Renderer& renderer, Settings settings) {
-    settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::surface;
     return renderer.draw(referenceSettings(settings), drawing({Channel::lit, Channel::material_id}));
 }
 
 Frame Measurer::tracedRays(Scene scene, Settings settings) {
-    settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
     settings.shadows = Shadows::off;
     settings.haze = false;

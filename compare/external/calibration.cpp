@@ -340,7 +340,6 @@ Settings chartSettings(Lamp lamp) {
 
 ChartReference referenceUnder(const Scene& charts, Lamp lamp) {
     Settings settings = chartSettings(lamp);
-    settings.path = Path::reference;
     settings.reference_mode = ReferenceMode::scene;
     RenderOptions options;
     options.channels = {Channel::lit, Channel::material_id};
