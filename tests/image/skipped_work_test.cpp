@@ -51,7 +51,7 @@ TEST(SkippedWork, TheViewIsTheSameFromEverySource) {
 // A texture transform needs all inputs; without a texture it has no effect.
 TEST(SkippedWork, FewerInputsBringTheSameImageAsAll) {
     std::size_t scene = 0;
-    for (const std::string& name : builtinScenes())
+    for (const std::string& name : slice(builtinScenes(), 3))
         expectSame(name, smallFrame(scene++ % 2 == 0 ? Path::deferred : Path::forward_plus),
                    [](PreparedView& view) {
                        for (DrawItem& item : view.draws.items)

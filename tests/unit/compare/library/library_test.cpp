@@ -91,6 +91,7 @@ TEST(Library, LimitsDecide) {
     result = compare({width, height, a}, {width, height, a});
     EXPECT_TRUE(result.passed);
     EXPECT_EQ(result.worst_x, -1);
+    EXPECT_EQ(result.worst_y, -1);
     // A NaN, which a mean would miss.
     b[3] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_FALSE(compare({width, height, a}, {width, height, b}).passed);
