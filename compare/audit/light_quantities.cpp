@@ -43,7 +43,7 @@ Predicted predictIntensity(const Subject& subject, const Settings&, double) {
     }
     // Products with squared distances and D keep some ten binary orders from either end.
     return {.up = max > 0 ? 0x1p118 / max : Predicted::never,
-            .down = std::isfinite(min) ? 0x1p-116 / min : 0,
+            .down = 0x1p-116 / min,
             .because = "light is float32 from its source to the picture: 1e-38 to 3e38"};
 }
 

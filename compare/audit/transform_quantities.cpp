@@ -57,10 +57,10 @@ Predicted predictOffset(const Subject& subject, const Settings&, double error) {
 Predicted predictScale(const Subject& subject, const Settings&, double) {
     double min = std::numeric_limits<double>::infinity();
     for (const Light& light : subject.original.scene.lights)
-        if (isPunctual(light)) min = std::min(min, double{light.intensity});
+        if (isPunctual(light) && light.intensity > 0) min = std::min(min, double{light.intensity});
     // Candela scale with the square of the factor.
-    const double dim = std::isfinite(min) && min > 0 ? std::sqrt(0x1p-126 / min) : 0;
-    return {.up = maxCoordinate / std::max(subject.bounds.radius(), 1e-30),
+    const double dim = std::sqrt(0x1p-126 / min);  // 0 without such lights
+    return {.up = maxCoordinate / subject.radius(),
             .down = std::max(dim, 0x1p-63 / distanceOf(subject)),
             .because =
                 "squared lengths and candela are float32, 1e-38 to 3e38, and candela grow with the square of "

@@ -5,9 +5,9 @@
 
 #include "compare/render/sample_counts.h"
 #include "shared/text/counted.h"
+#include "shared/text/joined_names.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -152,12 +152,9 @@ std::vector<GrowthAxis> growthAxes(const std::string& words, std::string_view op
     std::vector<GrowthAxis> axes;
     for (const std::string& word : wordsOf(words, option)) {
         const auto row = std::ranges::find(growthRows, word, &GrowthRow::name);
-        if (row == std::end(growthRows)) {
-            std::vector<std::string_view> names;
-            for (const GrowthRow& one : growthRows) names.push_back(one.name);
+        if (row == std::end(growthRows))
             throw std::runtime_error(
-                fmt::format("{} {}: takes {}, separated by commas", option, word, fmt::join(names, ", ")));
-        }
+                fmt::format("{} {}: takes {}, separated by commas", option, word, growthAxisNames()));
         if (std::ranges::find(axes, row->axis) == axes.end()) axes.push_back(row->axis);
     }
     return axes;
@@ -309,6 +306,10 @@ BenchTable benchTableOf(const std::string& word) {
 
 std::string_view nameOf(GrowthAxis axis) {
     return std::ranges::find(growthRows, axis, &GrowthRow::axis)->name;
+}
+
+std::string growthAxisNames() {
+    return joinedNames(growthRows);
 }
 
 BenchCases makeBenchCases(const std::string& scene, const Settings& requested, const BenchOptions& options) {

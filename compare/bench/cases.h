@@ -56,6 +56,7 @@ struct BenchOptions {
 void readList(BenchOptions& options, std::string_view option, const std::string& text);
 BenchTable benchTableOf(const std::string& word);
 std::string_view nameOf(GrowthAxis axis);
+std::string growthAxisNames();  // "triangles, draws, ..."
 
 // Parts of a mode's name that are shown because the options vary them.
 struct ModeParts {

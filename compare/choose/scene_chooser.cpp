@@ -11,9 +11,9 @@
 #include "compare/render/load_scene.h"
 #include "compare/run/command_text.h"
 #include "shared/draw/depth_storage.h"
+#include "shared/text/joined_names.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -99,12 +99,10 @@ std::vector<Change> singleChanges(const std::vector<Settings>& candidates) {
 }  // namespace
 
 Measure metricNamed(const std::string& name) {
-    std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < experiment::errorMetrics.size(); ++i) {
+    for (std::size_t i = 0; i < experiment::errorMetrics.size(); ++i)
         if (experiment::errorMetrics[i].name == name) return Measure::flip + i;
-        names.push_back(experiment::errorMetrics[i].name);
-    }
-    throw std::runtime_error(fmt::format("--figure {}: takes {}", name, fmt::join(names, ", ")));
+    throw std::runtime_error(
+        fmt::format("--figure {}: takes {}", name, joinedNames(experiment::errorMetrics)));
 }
 
 struct SceneChooser::LoadedScene {

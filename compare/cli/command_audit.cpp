@@ -15,9 +15,9 @@
 #include "compare/run/print.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/text/counted.h"
+#include "shared/text/joined_names.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <charconv>
@@ -37,12 +37,6 @@ struct AuditLine : SceneGroup {
     std::vector<std::string> required_text;     // NAME=MAGNITUDE
 };
 
-std::string namesOf(const auto& all) {
-    std::vector<std::string_view> names;
-    for (const auto& each : all) names.push_back(each.name);
-    return fmt::format("{}", fmt::join(names, ", "));
-}
-
 void describeAudit(CLI::App& app, AuditLine& options) {
     addScene(app, options, one_scene_help);
     addFiles(app, options, "output folder");
@@ -51,7 +45,7 @@ void describeAudit(CLI::App& app, AuditLine& options) {
     addList(app, "--quantity", options.quantities, "NAME,...",
             fmt::format("quantities to push (all): {}. Defaults: --size 160x90; --shadows off, except for "
                         "shadow quantities",
-                        namesOf(audit::quantities())));
+                        joinedNames(audit::quantities())));
     addList(app, "--require", options.required_text, "NAME=MAGNITUDE,...",
             "exit code 1 if a path's error reaches 1e-2 between the original scene and this magnitude; "
             "repeatable");
@@ -59,7 +53,7 @@ void describeAudit(CLI::App& app, AuditLine& options) {
                  "instead of pushing quantities, test changes that must not change the picture, on this "
                  "device, without a reference; exit code 1 if a relation is broken");
     addList(app, "--relation", options.chosen_relations, "NAME,...",
-            fmt::format("relations to test (all): {}", namesOf(audit::relations())));
+            fmt::format("relations to test (all): {}", joinedNames(audit::relations())));
     app.get_option("--size")->description("picture size, WxH (160x90)");
     app.get_option("--shadows")->description("shadow technique (off, except for shadow quantities)");
     acceptUnread(app, {"--path", "--runs"});

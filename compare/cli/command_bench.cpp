@@ -5,6 +5,8 @@
 #include "compare/cli/command.h"
 #include "compare/run/print.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <span>
@@ -26,15 +28,14 @@ void describeBench(CLI::App& app, BenchLine& options) {
     addScene(app, options, one_scene_help, "assign");
     addFiles(app, options, "folder for the page, table and plot (diptych-bench)");
     app.option_defaults()->group("Benchmark");
-    const auto addWords = [&](const char* option, const std::string& type, const char* help) {
+    const auto addWords = [&](const char* option, const std::string& type, const std::string& help) {
         addOption(app, option, options.lists[option], type, help);
     };
     addOption(app, "--table", options.table_text, "modes|msaa|growth|layers",
               "modes: every mode; msaa: each path by samples per pixel, with and without blended surfaces, "
               "and its memory; growth: each path as one quantity grows; layers: forward+ and both --layers "
               "of deferred by what coats, sheen, brushed surfaces and glass cover (modes)");
-    addWords("--axes", "AXIS,...",
-             "quantities of --table growth: triangles, draws, instances, textures, lights, pixels (all)");
+    addWords("--axes", "AXIS,...", fmt::format("quantities of --table growth: {} (all)", growthAxisNames()));
     addWords("--paths", "PATH,...", "paths to time (deferred,forward_plus)");
     addWords("--assign", acceptedValues("assign") + ",...", "light assignments to time (all supported)");
     addWords("--sizes", "WxH,...", "picture sizes to time (--size)");

@@ -11,6 +11,7 @@
 #include "compare/run/print.h"
 #include "shared/image/atomic_file.h"
 #include "shared/text/input_file.h"
+#include "shared/text/joined_names.h"
 #include "shared/text/json.h"
 #include "shared/text/json_text.h"
 
@@ -39,7 +40,7 @@ void describeChoose(CLI::App& app, ChooseLine& options) {
     app.option_defaults()->group("Budgets (one or two)");
     addOption(app, "--max-error", options.error, "E",
               "largest error of lit; finds the fastest Settings within it");
-    addOption(app, "--figure", options.metric_text, "flip|relative_rmse|relative_p99",
+    addOption(app, "--figure", options.metric_text, joinedNames(experiment::errorMetrics, "|"),
               "error metric of --max-error (flip)");
     addOption(app, "--max-ms", options.ms, "T",
               "longest frame time, ms; without --max-error, finds the most accurate Settings within it");

@@ -28,6 +28,25 @@ std::string againBeside(const fs::path& folder) {
 
 }  // namespace
 
+std::map<const Item*, ReportPart> keptParts(const CheckpointFolder& checkpoints, const SceneItems& items,
+                                            const std::function<void(const std::string&)>& note) {
+    std::map<const Item*, ReportPart> parts;
+    for (const Item* item : items.mine) {
+        if (checkpoints.find(partOf(*item)) != stampOf(item->scene) ||
+            !isPartThere(checkpoints.path(), item->folder))
+            continue;
+        try {
+            parts.emplace(item, readPart(checkpoints.path(), item->folder));
+        } catch (const std::runtime_error& problem) {
+            note(fmt::format("{}; comparing the scene again", problem.what()));
+        }
+    }
+    if (!parts.empty())
+        note(
+            fmt::format("{} of {} scenes are kept from an interrupted run", parts.size(), items.mine.size()));
+    return parts;
+}
+
 Collection::Collection(const CollectionQuestion& question, const SceneItems& items, Device& device,
                        Device* other, Progress& progress)
     : question_(question),
@@ -36,7 +55,7 @@ Collection::Collection(const CollectionQuestion& question, const SceneItems& ite
       checkpoints_(question.folder, "scenes", question.key),
       devices_(device, other, true) {
     checkDevice();
-    findCheckpoint();
+    parts_ = keptParts(checkpoints_, items_, question_.note);
     checkHeaders();
 }
 
@@ -52,22 +71,6 @@ void Collection::checkDevice() {
             fmt::format("{}: holds scenes rendered on another device ({}); remove it, or use that --device",
                         checkpoints_.path().string(), there["device"].dump()));
     checkpoints_.keep("device", {{"device", device}});
-}
-
-void Collection::findCheckpoint() {
-    for (const Item* item : items_.mine) {
-        if (checkpoints_.find(partOf(*item)) != stampOf(item->scene) ||
-            !isPartThere(checkpoints_.path(), item->folder))
-            continue;
-        try {
-            parts_.emplace(item, readPart(checkpoints_.path(), item->folder));
-        } catch (const std::runtime_error& problem) {
-            question_.note(fmt::format("{}; comparing the scene again", problem.what()));
-        }
-    }
-    if (!parts_.empty())
-        question_.note(fmt::format("{} of {} scenes are kept from an interrupted run", parts_.size(),
-                                   items_.mine.size()));
 }
 
 // A scene that fails becomes an error of the report.

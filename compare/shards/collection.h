@@ -35,6 +35,11 @@ struct CollectionQuestion {
     std::function<void(const std::string&)> log_verbose{};  // with -v
 };
 
+// Parts that an interrupted run left, of scenes whose files are unchanged. `note` gets a line for each
+// damaged part, and one with the number of the others.
+std::map<const Item*, ReportPart> keptParts(const CheckpointFolder& checkpoints, const SceneItems& items,
+                                            const std::function<void(const std::string&)>& note);
+
 // Keeps a report part beside the output after each scene. A scene that cannot be read or rendered is an
 // error of the report.
 class Collection {
@@ -52,7 +57,6 @@ public:
 
 private:
     void checkDevice();
-    void findCheckpoint();
     void attempt(const Item* item, const std::function<void()>& work);
     void checkHeaders();
     ReportPart compareOne(const Item& item, const Scene& scene, const Stage& stage);

@@ -301,46 +301,6 @@ TEST(Audit, ASceneMovesAndGrowsAsAWhole) {
     EXPECT_NEAR(glm::distance(before.min, whole.min), 0, 1e-5);
 }
 
-// Depth z = f / (f - n) (1 - n / d), or 1 minus that, of a surface at distance d. At the predicted ratio, an
-// error of the format moves the farthest surface by the error that the criterion allows; less, if light from
-// a lamp nearby changes more.
-TEST(Audit, ANearPlaneIsPredictedByOneStepOfDepth) {
-    const Quantity& near = quantityOf("near");
-    Subject subject = gallery();
-    std::vector<Light>& lights = subject.original.scene.lights;
-    Light lamp;
-    lamp.kind = LightKind::point;
-    const double distance = subject.distance();
-    Case changed = subject.original;
-    for (const double far : {infinity, 3 * subject.farthest()})
-        for (const double lamp_at : {infinity, 4 * distance, distance / 5}) {  // from the surface
-            subject.view.camera.far = far;
-            lights.clear();
-            lamp.position = subject.point + glm::dvec3(0, lamp_at, 0);
-            if (std::isfinite(lamp_at)) lights.push_back(lamp);
-            for (const auto& [format, step] : {std::pair{DepthFormat::d32f_standard, 0x1p-24},
-                                               {DepthFormat::d24, 0.5 * 0x1p-24},
-                                               {DepthFormat::d16, 0.5 / 65535}})
-                for (const double error : {1e-3, 1e-2}) {
-                    Settings settings = subject.original.settings;
-                    settings.depth_format = format;
-                    const Predicted predicted = near.predict(subject, settings, error);
-                    near.apply(changed, subject, predicted.up);
-                    const double n = changed.camera().near, f = changed.camera().far, d = subject.farthest(),
-                                 z = f / (f - n) * (1 - n / d) + step,
-                                 moved = n / (1 - z * (f - n) / f) / d - 1;
-                    EXPECT_NEAR(moved, lamp_at < distance ? error / 10 : error, 0.02 * error)
-                        << nameOf(format) << ", far " << far << ", lamp at " << lamp_at;
-                    EXPECT_DOUBLE_EQ(f / n, predicted.up);
-                    EXPECT_EQ(predicted.down, 0);
-                    EXPECT_NE(predicted.because, "");
-                }
-        }
-    Settings reversed = subject.original.settings;
-    reversed.depth_format = DepthFormat::d32f;
-    EXPECT_EQ(near.predict(subject, reversed, 1e-3).up, Predicted::never);
-}
-
 // One triangle under one light suffices to show this failure.
 TEST(AuditReduce, TheSmallestSceneIsFound) {
     const Subject subject = gallery();

@@ -230,11 +230,29 @@ TEST(BenchOutput, EveryNumberOfATableStandsUnderItsHead) {
     EXPECT_EQ(wordsOf(first), words);
 }
 
-TEST(BenchOutput, PixelsThatAreNotFiniteAreSaid) {
+// Counters of frames make notes, row by row, before the notes that all rows share.
+TEST(BenchOutput, WhatFramesCountedIsNoted) {
     Bench bench = several();
-    EXPECT_EQ(benchEnd(bench).find("not finite"), std::string::npos);
+    bench.rows[0].measured[Measure::unsorted_pixels] = 9;  // of no fragments
+    const auto notes = [&] {
+        const std::string end = benchEnd(bench);
+        const std::size_t from = end.find("Notes\n");
+        return end.substr(from, end.find("\n  one note\n") - from);
+    };
+    EXPECT_EQ(notes(), "Notes");
     bench.rows[1].measured[Measure::nonfinite_pixels] = 7;
-    EXPECT_NE(benchEnd(bench).find("deferred, every, 1025 lights: 7 pixels not finite\n"), std::string::npos);
+    bench.rows[1].measured[Measure::unsorted_fragments] = 12;
+    bench.rows[1].measured[Measure::unsorted_pixels] = 5;
+    bench.rows[3].measured[Measure::nonfinite_pixels] = 1;
+    bench.rows[4].measured[Measure::unsorted_fragments] = 1;
+    bench.rows[4].measured[Measure::unsorted_pixels] = 1;
+    EXPECT_EQ(
+        notes(),
+        "Notes\n"
+        "  deferred, every, 1025 lights: 7 pixels not finite\n"
+        "  deferred, every, 1025 lights: 12 blended fragments in 5 pixels overflowed the fragment list\n"
+        "  forward_plus, clustered, 1025 lights: 1 pixel not finite\n"
+        "  deferred, every, 17 lights: 1 blended fragment in 1 pixel overflowed the fragment list");
 }
 
 TEST(BenchOutput, JsonReadsBack) {
