@@ -9,9 +9,10 @@
 namespace diptych::viewer {
 namespace fs = std::filesystem;
 
-void SceneWatch::watch(const std::string& scene, const std::vector<fs::path>& others) {
+void SceneWatch::watch(const std::string& scene, const Settings& settings) {
     files_ = shards::filesOf(scene);
-    files_.insert(files_.end(), others.begin(), others.end());
+    if (settings.env != "none" && settings.env != "scene") files_.emplace_back(settings.env);
+    if (settings.lights.ends_with(".json")) files_.emplace_back(settings.lights);
     known_ = last_ = times();
 }
 

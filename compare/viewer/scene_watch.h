@@ -2,6 +2,8 @@
 // Detects changes of a scene's files on disk.
 #pragma once
 
+#include "shared/frame/settings.h"
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,9 +13,9 @@ namespace diptych::viewer {
 
 class SceneWatch {
 public:
-    // Watches a scene's file, the files that a .gltf names, and `others`: an environment or a file of
+    // Watches a scene's file, the files that a .gltf names, and the Settings' environment and file of
     // lights. A built-in scene has no files.
-    void watch(const std::string& scene, const std::vector<std::filesystem::path>& others);
+    void watch(const std::string& scene, const Settings& settings);
     // True once after a change, when nothing changed since the last call: a program may still be writing.
     // Call it a few times a second.
     bool changed();

@@ -12,10 +12,8 @@
 #include "compare/viewer/window/screen.h"
 #include "compare/viewer/window/window.h"
 #include "compare/viewer/window/zoom_flight.h"
-#include "shared/frame/debug_modes.h"
 
 #include <GLFW/glfw3.h>
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -36,8 +34,6 @@ constexpr double movingPause = 1.0 / 60, minPause = 1.0 / 125, idlePause = 0.25;
 // A view is still once nothing has moved for this time, s.
 constexpr double stillAfter = 0.15, resizedAfter = 0.3;
 constexpr double watchPause = 0.3;  // s
-// Window pixels per image pixel: for Z, which shows values, and for a pixel in its surroundings.
-constexpr double zoomed = 80, flown = 32;
 
 double secondsBetween(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
@@ -69,11 +65,11 @@ public:
         if (options.pixel) {
             state_.pixel = options.pixel;
             state_.open = Tab::pixel;
-            state_.canvas.zoom = flown * window_.contentScale();
+            state_.canvas.zoom = surroundingsZoom * window_.contentScale();
             state_.canvas.centre_x = options.pixel->x + 0.5;
             state_.canvas.centre_y = options.pixel->y + 0.5;
         }
-        watch_.watch(state_.subject.scene, otherFiles());
+        watch_.watch(state_.subject.scene, state_.subject.settings);
     }
 
     ViewerResult run() {
@@ -180,20 +176,8 @@ private:
     }
 
     void ask() {
-        const CanvasRect canvas = canvasNow();
-        if (state_.follow) {
-            const bool halves = state_.canvas.layout == Layout::side_by_side &&
-                                state_.view_options.difference == Difference::none;
-            const Size size{std::max(1, halves ? (canvas.width - 2) / 2 : canvas.width),
-                            std::max(1, canvas.height)};
-            if (size != state_.subject.settings.size) {
-                if (request_.id != 0) moving_until_ = std::max(moving_until_, now_ + resizedAfter);
-                change([&](Settings& s) { s.size = size; });
-            }
-        }
-        if (state_.pixel && (state_.pixel->x >= state_.subject.settings.size.width ||
-                             state_.pixel->y >= state_.subject.settings.size.height))
-            state_.pixel.reset();
+        if (fitToCanvas(canvasNow(), state_) && request_.id != 0)
+            moving_until_ = std::max(moving_until_, now_ + resizedAfter);
         // Repeated changes, as from a slider, count as movement.
         if (request_.subject != state_.subject) {
             if (now_ - changed_ < resizedAfter) moving_until_ = std::max(moving_until_, now_ + stillAfter);
@@ -212,31 +196,9 @@ private:
         latencies_.asked(request_.id);
     }
 
-    std::vector<std::filesystem::path> otherFiles() const {
-        std::vector<std::filesystem::path> files;
-        const Settings& settings = state_.subject.settings;
-        if (settings.env != "none" && settings.env != "scene") files.emplace_back(settings.env);
-        if (settings.lights.ends_with(".json")) files.emplace_back(settings.lights);
-        return files;
-    }
-
     void readAgain() {
         ++state_.subject.reading;
-        watch_.watch(state_.subject.scene, otherFiles());
-    }
-
-    void openScene(const std::string& scene) {
-        state_.subject.scene = scene;
-        change([](Settings& s) {
-            s.camera.clear();
-            s.time = 0;
-            s.animation.clear();
-            s.variant.clear();
-        });
-        own_camera_ = "none taken yet";
-        state_.pixel.reset();
-        state_.canvas.zoom = 0;
-        readAgain();
+        watch_.watch(state_.subject.scene, state_.subject.settings);
     }
 
     // ---- input ----------------------------------------------------------------------------------------
@@ -283,7 +245,9 @@ private:
             tell("copied: " + requests.copy);
         }
         if (requests.reload) readAgain();
-        if (requests.worst) flyTo(requests.worst->second);
+        if (requests.flight)
+            flight_.begin(now_, state_.canvas, canvasNow(), state_.subject.settings.size,
+                          requests.flight->pixel, requests.flight->zoom * screen_.scale());
         if (requests.camera) {
             change([&](Settings& s) { s.camera = *requests.camera; });
             own_camera_ = "none taken yet";
@@ -291,12 +255,8 @@ private:
     }
 
     void handleDropped(const Input& input) {
-        for (const std::filesystem::path& file : input.dropped) {
-            if (const auto message = openDropped(file, state_))
-                tell(*message);
-            else
-                openScene(file.string());
-        }
+        for (const std::filesystem::path& file : input.dropped)
+            if (const std::string message = openDropped(file, state_); !message.empty()) tell(message);
     }
 
     // `typing`: a text field has the focus and takes all other keys.
@@ -314,42 +274,22 @@ private:
     }
 
     void act(const KeyPress& pressed, bool shift) {
+        if (pressed.action == Action::leave) flight_.stop();
         if (const auto message = actOnState(pressed, shift, contents_, state_)) {
+            handleRequests();
             if (!message->empty()) tell(*message);
             return;
         }
         switch (pressed.action) {
-            case Action::zoom:
-                if (state_.canvas.zoom > 0)
-                    state_.canvas.zoom = 0;
-                else
-                    flyTo(contents_.under ? contents_.under->pixel
-                                          : PixelPosition{state_.subject.settings.size.width / 2,
-                                                          state_.subject.settings.size.height / 2},
-                          zoomed);
-                break;
-            case Action::worst_pixel:
-                worstPixel();
-                break;
-            case Action::next_camera:
-                nextCamera();
-                break;
             case Action::screenshot:
                 drawing_.save(options_.out.empty() ? "." : options_.out);
                 tell("writing both paths, all channels");
-                break;
-            case Action::reload:
-                readAgain();
-                break;
-            case Action::copy_command:
-                state_.requests.copy = renderCommand(state_);
-                handleRequests();
                 break;
             case Action::full_screen:
                 window_.toggleFullScreen();
                 break;
             case Action::leave:
-                leave();
+                if (window_.isFullScreen()) window_.toggleFullScreen();
                 break;
             case Action::quit:
                 quit_ = true;
@@ -358,43 +298,6 @@ private:
                 if (pressed.action != Action::flicker && !camera_.canMove() && contents_.shown)
                     tell("this camera is orthographic and cannot move: press N for another camera");
         }
-    }
-
-    void leave() {
-        flight_.stop();
-        if (state_.help)
-            state_.help = false;
-        else if (state_.canvas.zoom > 0)
-            state_.canvas.zoom = 0;
-        else if (state_.pixel)
-            state_.pixel.reset();
-        else if (window_.isFullScreen())
-            window_.toggleFullScreen();
-    }
-
-    void nextCamera() {
-        const std::size_t count = contents_.properties ? contents_.properties->cameras.size() : 0;
-        const std::string& now = state_.subject.settings.camera;
-        std::size_t next = 0;
-        if (now.empty() && count > 1)
-            next = 1;  // the first is the current one
-        else if (!now.empty() && now.find('=') == now.npos)
-            next = (static_cast<std::size_t>(std::atoi(now.c_str())) + 1) % std::max<std::size_t>(count, 1);
-        const std::string words = count == 0 ? "" : std::to_string(next);
-        change([&](Settings& s) { s.camera = words; });
-        own_camera_ = "none taken yet";
-        tell(count == 0 ? "the default view: this scene has no camera"
-                        : fmt::format("camera {} {}", next, contents_.properties->cameras[next]));
-    }
-
-    void worstPixel() {
-        if (!contents_.evaluated || contents_.evaluated->subject != ofBothPaths(state_.subject))
-            return tell("no verdict for this view yet");
-        for (const Comparison& comparison : contents_.evaluated->report.comparisons)
-            for (const ChannelDiff& channel : comparison.channels)
-                if (channel.mode->channel == state_.view_options.channel() && channel.stats.worst_x >= 0)
-                    return flyTo({channel.stats.worst_x, channel.stats.worst_y});
-        tell(fmt::format("no pixel of {} differs", debugMode(state_.view_options.channel()).name));
     }
 
     // ---- moving ---------------------------------------------------------------------------------------
@@ -432,11 +335,6 @@ private:
         change([&](Settings& s) { s.time = time; });
     }
 
-    void flyTo(const PixelPosition& pixel, std::optional<double> wanted = {}) {
-        flight_.begin(now_, state_.canvas, canvasNow(), state_.subject.settings.size, pixel,
-                      wanted.value_or(flown) * screen_.scale());
-    }
-
     // ---- drawing the window ---------------------------------------------------------------------------
 
     CanvasRect canvasNow() const { return canvasOf(state_, width_, height_, screen_.scale()); }
@@ -448,9 +346,7 @@ private:
         contents_.shown_by = screen_.device();
         const CanvasRect canvas = canvasNow();
         screen_.draw(state_, contents_, canvas, panelRectsOf(canvas, state_));
-        window_.setTitle(fmt::format("Diptych - {} - {}",
-                                     contents_.properties ? contents_.properties->name : state_.subject.scene,
-                                     debugMode(state_.view_options.channel()).name));
+        window_.setTitle(titleOf(state_, contents_));
         if (contents_.shown) latencies_.seen(*contents_.shown, request_.id);
     }
 

@@ -169,9 +169,7 @@ private:
     void countMessages() {
         const Device* device = pair_.device();
         if (!device || device->validationMessages() == 0) return;
-        const std::lock_guard lock(box_.mutex);
-        if (box_.validation_messages == 0) box_.first_validation_message = device->firstValidationMessage();
-        box_.validation_messages = of_lost_devices_ + device->validationMessages();
+        box_.count(of_lost_devices_ + device->validationMessages(), device->firstValidationMessage());
     }
 
     // Drops a lost device; false if there was no loss, or too many.

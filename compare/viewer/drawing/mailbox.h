@@ -57,6 +57,12 @@ struct Mailbox {
         }
         wake();
     }
+    // Sets the number of validation messages so far; keeps the first one.
+    void count(std::uint64_t messages, const std::string& first) {
+        const std::lock_guard lock(mutex);
+        if (validation_messages == 0 && messages > 0) first_validation_message = first;
+        validation_messages = messages;
+    }
     // A copy of the member.
     template <class Value>
     Value get(Value Mailbox::*member) const {

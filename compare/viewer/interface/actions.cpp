@@ -4,9 +4,12 @@
 #include "compare/files/diptych_files.h"
 #include "shared/frame/debug_modes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
 #include <utility>
@@ -50,6 +53,61 @@ bool switchRig(InterfaceState& state) {
         state.rig = lights;
         setOption(state, "lights", "none");
     }
+    return true;
+}
+
+// The next of the scene's cameras, by number; from a moved one the first. Returns a message.
+std::string nextCamera(const Contents& contents, InterfaceState& state) {
+    const std::size_t count = contents.properties ? contents.properties->cameras.size() : 0;
+    if (count == 0) {
+        state.requests.camera = "";
+        return "the default view: this scene has no camera";
+    }
+    const std::string& now = state.subject.settings.camera;
+    std::size_t next = 0;
+    if (now.empty() && count > 1)
+        next = 1;  // the first is the current one
+    else if (!now.empty() && now.find('=') == now.npos)
+        next = (static_cast<std::size_t>(std::atoi(now.c_str())) + 1) % count;
+    state.requests.camera = std::to_string(next);
+    return fmt::format("camera {} {}", next, contents.properties->cameras[next]);
+}
+
+// Returns a message; an empty one if there is a pixel to fly to.
+std::string worstPixel(const Contents& contents, InterfaceState& state) {
+    if (!contents.evaluated || contents.evaluated->subject != ofBothPaths(state.subject))
+        return "no verdict for this view yet";
+    const Channel shown = state.view_options.channel();
+    for (const Comparison& comparison : contents.evaluated->report.comparisons)
+        for (const ChannelDiff& channel : comparison.channels)
+            if (channel.mode->channel == shown && channel.stats.worst_x >= 0) {
+                state.requests.flight = {{channel.stats.worst_x, channel.stats.worst_y}, surroundingsZoom};
+                return {};
+            }
+    return fmt::format("no pixel of {} differs", debugMode(shown).name);
+}
+
+// To the pixel under the cursor or in the middle, and back.
+void switchZoom(const Contents& contents, InterfaceState& state) {
+    const Size& size = state.subject.settings.size;
+    if (state.canvas.zoom > 0)
+        state.canvas.zoom = 0;
+    else
+        state.requests.flight = {
+            contents.under ? contents.under->pixel : PixelPosition{size.width / 2, size.height / 2},
+            digitsZoom};
+}
+
+// Leaves the help, the zoom or the inspected pixel; false if there is none of them.
+bool leaveInnermost(InterfaceState& state) {
+    if (state.help)
+        state.help = false;
+    else if (state.canvas.zoom > 0)
+        state.canvas.zoom = 0;
+    else if (state.pixel)
+        state.pixel.reset();
+    else
+        return false;
     return true;
 }
 
@@ -112,16 +170,45 @@ std::optional<std::string> actOnState(const KeyPress& pressed, bool shift, const
         case Action::help:
             state.help = !state.help;
             break;
+        case Action::zoom:
+            switchZoom(contents, state);
+            break;
+        case Action::worst_pixel:
+            return worstPixel(contents, state);
+        case Action::next_camera:
+            return nextCamera(contents, state);
+        case Action::reload:
+            state.requests.reload = true;
+            break;
+        case Action::copy_command:
+            state.requests.copy = renderCommand(state);
+            break;
+        case Action::leave:
+            if (!leaveInnermost(state)) return std::nullopt;
+            break;
         default:
             return std::nullopt;
     }
     return std::string();
 }
 
-std::optional<std::string> openDropped(const std::filesystem::path& file, InterfaceState& state) {
+std::string openDropped(const std::filesystem::path& file, InterfaceState& state) {
     std::string ending = file.extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (ending == ".gltf" || ending == ".glb") return std::nullopt;
+    if (ending == ".gltf" || ending == ".glb") {
+        state.subject.scene = file.string();
+        for (Settings* s : {&state.subject.settings, &state.edited}) {
+            s->camera.clear();
+            s->time = 0;
+            s->animation.clear();
+            s->variant.clear();
+        }
+        state.pixel.reset();
+        state.canvas.zoom = 0;
+        state.requests.camera = "";
+        state.requests.reload = true;
+        return {};
+    }
     if (ending == ".exr" && isDiptychImage(file)) {
         state.stored = state.view_options.file = file;
         state.view_options.against = Against::file;
@@ -132,6 +219,21 @@ std::optional<std::string> openDropped(const std::filesystem::path& file, Interf
         return "environment: " + file.string();
     }
     return file.string() + ": not a .gltf, .glb, .exr or .hdr file";
+}
+
+bool fitToCanvas(const CanvasRect& canvas, InterfaceState& state) {
+    Settings& settings = state.subject.settings;
+    const Size before = settings.size;
+    if (state.follow) {
+        const bool halves =
+            state.canvas.layout == Layout::side_by_side && state.view_options.difference == Difference::none;
+        settings.size = {std::max(1, halves ? (canvas.width - 2) / 2 : canvas.width),
+                         std::max(1, canvas.height)};
+        if (settings.size != before) state.edited.size = settings.size;
+    }
+    if (state.pixel && (state.pixel->x >= settings.size.width || state.pixel->y >= settings.size.height))
+        state.pixel.reset();
+    return settings.size != before;
 }
 
 }  // namespace diptych::viewer

@@ -88,6 +88,12 @@ const std::string& sceneOf(const InterfaceState& state) {
     return state.loaded.empty() ? state.subject.scene : state.loaded;
 }
 
+std::string titleOf(const InterfaceState& state, const Contents& contents) {
+    return fmt::format("Diptych - {} - {}",
+                       contents.properties ? contents.properties->name : state.subject.scene,
+                       debugMode(state.view_options.channel()).name);
+}
+
 std::string renderCommand(const InterfaceState& state) {
     std::vector<std::string> words =
         commandArguments("render", sceneOf(state),

@@ -28,6 +28,16 @@ struct History {
     void add(const PathProperties& properties);
 };
 
+// Window pixels per image pixel, at scale 1: of a pixel among its neighbours; with its values in digits.
+inline constexpr double surroundingsZoom = 32, digitsZoom = 80;
+
+// A pixel to fly to.
+struct PixelFlight {
+    PixelPosition pixel;
+    double zoom = surroundingsZoom;
+    bool operator==(const PixelFlight&) const = default;
+};
+
 enum class Tab { verdict, settings, scene, pixel, cost };
 
 struct InterfaceState {
@@ -52,12 +62,12 @@ struct InterfaceState {
     std::string message;                       // result of the last action, in the footer
     double message_until = 0;                  // s, on the interface's clock
 
-    // Requests from panels to the window.
+    // Requests from panels and keys to the window.
     struct Requests {
         std::string copy;  // to the clipboard
         bool reload = false;
-        std::optional<std::pair<Channel, PixelPosition>> worst;  // channel and pixel to fly to
-        std::optional<std::string> camera;                       // to use, as --camera text
+        std::optional<PixelFlight> flight;
+        std::optional<std::string> camera;  // to use, as --camera text
     } requests;
 };
 
@@ -92,6 +102,9 @@ std::vector<PanelRect> panelRectsOf(const CanvasRect& canvas, const InterfaceSta
 
 // The rendered scene, as on the command line.
 const std::string& sceneOf(const InterfaceState& state);
+
+// "Diptych - box - normals", for the window.
+std::string titleOf(const InterfaceState& state, const Contents& contents);
 
 // "diptych render ..." and "diptych compare ..." for the view.
 std::string renderCommand(const InterfaceState& state);

@@ -50,7 +50,7 @@ void channelRow(InterfaceState& state, const Report& report, const Comparison& c
         state.view_options.mode = channel.mode->channel;
         showComparison(state, report, comparison);
         if (compared && channel.stats.worst_x >= 0)
-            state.requests.worst = {channel.mode->channel, {channel.stats.worst_x, channel.stats.worst_y}};
+            state.requests.flight = {{channel.stats.worst_x, channel.stats.worst_y}};
         if (compared && state.view_options.difference == Difference::none)
             state.view_options.difference = Difference::absolute;
     }

@@ -317,9 +317,21 @@ TEST(ViewerWatch, TellsOnceThatAFileHasSettledAfterAChange) {
     EXPECT_FALSE(watch.changed());
     std::filesystem::remove(scene);  // like programs that write a new file and rename it
     EXPECT_FALSE(watch.changed());
-    watch.watch("builtin:gallery", {});
-    EXPECT_TRUE(watch.files().empty());
-    EXPECT_FALSE(watch.changed());
+    Settings settings;
+    for (const char* none : {"none", "scene"}) {
+        settings.env = none;
+        watch.watch("builtin:gallery", settings);
+        EXPECT_TRUE(watch.files().empty()) << none;
+        EXPECT_FALSE(watch.changed());
+    }
+    settings.env = "sky.hdr";
+    settings.lights = "lamps.json";
+    watch.watch(scene.string(), settings);
+    EXPECT_EQ(watch.files(), (std::vector<std::filesystem::path>{scene, "sky.hdr", "lamps.json"}))
+        << "the scene has gone, and with it the names in it";
+    settings.lights = "point:8";
+    watch.watch("builtin:gallery", settings);
+    EXPECT_EQ(watch.files(), (std::vector<std::filesystem::path>{"sky.hdr"}));
 }
 
 }  // namespace
