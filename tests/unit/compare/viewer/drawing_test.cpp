@@ -169,7 +169,7 @@ TEST(ViewerReference, IsTheImageOfTheCommandsAndStopsWithoutAnyRest) {
     EXPECT_EQ(thread.settings(), settings) << "a finished image stays";
     EXPECT_EQ(thread.frame({}, nullptr), frame);
 
-    settings.size = {2000, 2000};
+    settings.size = {64, 64};
     thread.begin(scene, settings, {});
     EXPECT_EQ(thread.settings(), settings);
     thread.stop();
