@@ -381,6 +381,7 @@ TEST_F(ViewerInterface, TheSceneTabReadsAgainCopiesAndSwitches) {
     screen_.click("the scene's first, or the default view");
     screen_.choose("1 back");
     EXPECT_EQ(state_.requests.camera, "1");
+    EXPECT_EQ(screen_.at("play (K)").y, screen_.at("time, s").y);
     screen_.click("play (K)");
     EXPECT_TRUE(state_.playing);
     screen_.pointAt("0.000");
