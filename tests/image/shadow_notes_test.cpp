@@ -108,7 +108,7 @@ TEST(ShadowNotes, PenumbrasThatAreLimited) {
                           &texels, &drawn_width, &width),
               3)
         << note;
-    // Of the caster's 1 m, in three digits.
+    // The caster is 1 m away; the note has three digits.
     EXPECT_NEAR(width, 2 * std::tan(1.0), 6e-3);
     EXPECT_LT(drawn_width, width);
     // The map's 256 texels cover the ground's 8 m and, on both sides, the filter.

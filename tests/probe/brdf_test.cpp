@@ -172,7 +172,7 @@ TEST(Brdf, GgxIsStableNearTheHighlight) {
         << "the comparison has lost its point: the textbook form is stable here";
 }
 
-// What the reference reflects, in double, of the row that push() made.
+// The reference evaluates, in double, the row that push() made.
 reference::Reflected ofReference(const float* row) {
     const auto in = [&](std::size_t at) { return double{row[at]}; };
     reference::Surface s;

@@ -140,7 +140,7 @@ public:
         press(true);
         press(false);
     }
-    // Of an open list, the text that was drawn last: the list covers what is below.
+    // Clicks a text of an open list. The list covers what is below, so the text that was drawn last counts.
     void choose(const std::string& text) {
         const auto found =
             std::find_if(texts.rbegin(), texts.rend(), [&](const DrawnText& t) { return t.text == text; });
