@@ -96,13 +96,20 @@ TEST(ComputeCulling, ChangesNoBitAmongPlacedBalls) {
     }
 }
 
-DrawnCounts countsOn(Device& on, const std::shared_ptr<PipelineSet>& set, const Scene& scene,
-                     const Settings& settings) {
-    SceneViews views(scene);
-    SharedResources shared(on, scene, set);
-    const PreparedView view(on, shared, views.at(viewRequest(settings)), settings);
-    return drawnCounts(view.draws, shared.geometry, view.culling);
-}
+class Counts {
+public:
+    Counts(Device& on, const Scene& scene, const std::shared_ptr<PipelineSet>& set)
+        : device_(on), views_(scene), shared_(on, scene, set) {}
+    DrawnCounts of(const Settings& settings) {
+        const PreparedView view(device_, shared_, views_.at(viewRequest(settings)), settings);
+        return drawnCounts(view.draws, shared_.geometry, view.culling);
+    }
+
+private:
+    Device& device_;
+    SceneViews views_;
+    SharedResources shared_;
+};
 
 // The compute shader tests each triangle; the host keeps meshlets that extend beyond the view whole. It
 // also tests samples under MSAA: it culls no less.
@@ -110,14 +117,14 @@ TEST(ComputeCulling, LeavesOutAboutAsMuchAsTheHost) {
     std::vector<std::string> names{"builtin:spheres", "builtin:gallery", "builtin:mirrored"};
     if (std::filesystem::exists(assets() / "sponza/Sponza.gltf"))
         names.push_back((assets() / "sponza/Sponza.gltf").string());
-    for (const std::string& name : names)
+    for (const std::string& name : names) {
+        const Scene scene = loadScene(name);
+        Counts by_host(device(), scene, pipelines()), by_kernel(byCompute(), scene, computePipelines());
         for (const int samples : {1, 4}) {
-            const Scene scene = loadScene(name);
             Settings settings = chosenSettings(Path::deferred, {1280, 720});
             settings.shadows = Shadows::off;
             settings.msaa = samples;
-            const DrawnCounts host = countsOn(device(), pipelines(), scene, settings),
-                              kernel = countsOn(byCompute(), computePipelines(), scene, settings);
+            const DrawnCounts host = by_host.of(settings), kernel = by_kernel.of(settings);
             const std::string found =
                 fmt::format("{} {}: host {}, kernel {} of {}; vertices {} and {}", name, samples, host.drawn,
                             kernel.drawn, host.in_view, host.vertices, kernel.vertices);
@@ -127,6 +134,7 @@ TEST(ComputeCulling, LeavesOutAboutAsMuchAsTheHost) {
             EXPECT_LE(kernel.drawn, host.drawn) << found;
             EXPECT_GT(4 * kernel.drawn, 3 * host.drawn) << found;
         }
+    }
 }
 
 // More meshlet ranges than a row of workgroups has.
@@ -134,8 +142,8 @@ TEST(ComputeCulling, ChoosesOfManyMeshes) {
     const Scene scene = loadScene("builtin:array?objects=34000&triangles=68000&meshes=34000");
     Settings settings = chosenSettings(Path::deferred, {1280, 720});
     settings.shadows = Shadows::off;
-    const DrawnCounts host = countsOn(device(), pipelines(), scene, settings),
-                      kernel = countsOn(byCompute(), computePipelines(), scene, settings);
+    const DrawnCounts host = Counts(device(), scene, pipelines()).of(settings),
+                      kernel = Counts(byCompute(), scene, computePipelines()).of(settings);
     EXPECT_GT(host.draws, gpu::CULLING_GROUPS);
     EXPECT_EQ(kernel.draws, host.draws);
     EXPECT_EQ(kernel.drawn, host.drawn);

@@ -323,7 +323,7 @@ TEST(LightLists, WhatFindsNoRoomIsEveryLightAndCounted) {
     area.direction = {0, -1, 0};
     scene.lights.push_back(area);
     Renderer renderer(device(), scene, pipelines());
-    const Size size{192, 24};
+    const Size size{384, 1};  // few pixels in as many tiles
     const Frame every = renderer.draw(image(size, Path::forward_plus, Assignment::every), untimed());
     const Frame frame = renderer.draw(image(size, Path::deferred, Assignment::clustered),
                                       untimed({Channel::lit, Channel::list_overflow}));

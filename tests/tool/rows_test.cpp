@@ -52,7 +52,7 @@ TEST(RowsOfCommands, AreAsTheSchemaSaysAndSoIsRowsCsv) {
     const std::pair<const char*, std::string> commands[] = {
         {"tradeoff", "builtin:suns --size 32x18 --shadows pcf --runs 1 " + grid},
         {"choose", "builtin:spots --size 32x18 --max-error 1 " + grid},
-        {"bench", "builtin:spheres --size 32x18 --runs 1 --assign every,per_object --light-counts 1,4"},
+        {"bench", "builtin:triangle --size 32x18 --runs 1 --assign every,per_object --light-counts 1,4"},
         {"audit", "builtin:triangle --size 16x9 --quantity offset,environment"}};
     for (const auto& [command, words] : commands) {
         const Ran ran = runTool(folder, std::string(command) + " " + words + " --force -q --json -o out");

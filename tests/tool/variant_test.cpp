@@ -76,7 +76,8 @@ TEST(Variant, IsSaidByReportsAndJobs) {
     folder.write("v.gltf", coloured);
     writeRenderer(folder, "fake", {"keep", (folder / "kept").string()});
     for (const std::string option : {"", "--variant red"}) {
-        runTool(folder, "compare" + small + option + " --runs 0 --channels lit -q --renderer f=fake.json");
+        runTool(folder,
+                "compare" + small + option + any_image + "--runs 0 --channels lit -q --renderer f=fake.json");
         const Json report = Json::parse(contentsOf(folder / "diptych-report" / "report.json"));
         for (const Json& frame : report["frames"])
             EXPECT_EQ(frame["settings"]["variant"], option.empty() ? "" : "red");

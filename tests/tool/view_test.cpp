@@ -221,23 +221,21 @@ TEST_F(View, AReportOpensAtWhatFails) {
 }
 
 TEST_F(View, ImagesAreAsLargeAsTheWindowShowsThem) {
+    display_.emplace(folder_, "640x400");
     start({"view", "-v", "builtin:triangle"});
-    settle();
+    await("first picture", 0);
     const auto expectSize = [&](int width, int height, const std::string& events) {
-        if (!events.empty()) {
-            stills_ = times("view: still");
-            display_->events(events);
-            settle();
-        }
+        stills_ = times("view: still");
+        display_->events(events);
+        settle();
         const viewer::CanvasRect canvas = viewer::canvasOf({}, width, height, 1);
         key("y");
         const std::string line = lastLine("copied: ");
         EXPECT_NE(line.find(fmt::format("--size {}x{}", canvas.width, canvas.height)), line.npos) << line;
     };
-    expectSize(windowWidth, windowHeight, "");
-    expectSize(900, 500, "search --name diptych windowsize 900 500");
-    expectSize(windowWidth, windowHeight, "key f");  // as large as the screen
-    expectSize(900, 500, "key Escape");
+    expectSize(500, 300, "search --name diptych windowsize 500 300");
+    expectSize(640, 400, "key f");  // as large as the screen
+    expectSize(500, 300, "key Escape");
     close();
 }
 

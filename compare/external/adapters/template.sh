@@ -6,30 +6,23 @@
 # $1 is the job's file, $2 its text (format: job.schema.json). The report shows stderr. A nonzero exit code
 # means that there is no image.
 set -eu
-job=$1
 
-# Prints a member of the job: "field camera eye 0" is job.camera.eye[0]. Prints nothing for null.
-field() {
-    python3 -c '
-import json, sys
-at = json.load(open(sys.argv[1]))
-for key in sys.argv[2:]: at = at[int(key) if isinstance(at, list) else key]
-sys.stdout.write("" if at is None else json.dumps(at) if isinstance(at, dict) else str(at))' "$job" "$@"
-}
-
-scene=$(field scene file; echo x)      # the x preserves trailing newlines of a name
-picture=$(field output file; echo x)
-camera="eye=$(field camera eye 0),$(field camera eye 1),$(field camera eye 2)"
-camera="$camera target=$(field camera target 0),$(field camera target 1),$(field camera target 2)"
-camera="$camera fov=$(field camera fov_degrees) near=$(field camera near)"
-far=$(field camera far)
-[ -z "$far" ] || camera="$camera far=$far"
-field settings > "$job.settings"
-set -- --settings "$job.settings" --path forward_plus --scene-lights off --lights "$job" --camera "$camera"
-if [ -n "$(field environment)" ]; then
-    set -- "$@" --env "$(field environment file)" --env-sun off
-    set -- "$@" --env-rotation "$(field environment rotation_degrees)" --ibl-intensity "$(field environment intensity)"
-else
-    set -- "$@" --env none
-fi
-exec "${DIPTYCH:-diptych}" render "${scene%x}" "$@" --channels lit --runs 0 -q -o "${picture%x}"
+# Prints the arguments for the job, each quoted for the shell.
+arguments=$(python3 -c '
+import json, shlex, sys
+job = json.load(open(sys.argv[1]))
+settings = sys.argv[1] + ".settings"
+json.dump(job["settings"], open(settings, "w"))
+camera, sky = job["camera"], job["environment"]
+view = ["{}={},{},{}".format(key, *camera[key]) for key in ("eye", "target")]
+view += ["fov={}".format(camera["fov_degrees"]), "near={}".format(camera["near"])]
+if camera["far"] is not None:
+    view.append("far={}".format(camera["far"]))
+said = [job["scene"]["file"], "--settings", settings, "--camera", " ".join(view), "--lights", sys.argv[1]]
+if sky:
+    said += ["--env", sky["file"], "--env-rotation", sky["rotation_degrees"], "--ibl-intensity", sky["intensity"]]
+else:
+    said += ["--env", "none"]
+print(*(shlex.quote(str(each)) for each in [*said, "-o", job["output"]["file"]]))' "$1")
+eval "set -- $arguments"
+exec "${DIPTYCH:-diptych}" render "$@" --path forward_plus --scene-lights off --env-sun off --channels lit --runs 0 -q
