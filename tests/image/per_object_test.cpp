@@ -119,8 +119,7 @@ Scene movingLamp(double x, double height = 8.3, double z = -6.32) {
 // Within two metres of a surface, radiance itself changes by more than 1 % per centimetre.
 TEST(PerObject, NothingPopsAsALightMovesByACentimetre) {
     double worst = 0;
-    const glm::dvec2 above[] = {{1.2, 8.3}, {4.2, 8.3}, {7.2, 8.3}, {13.2, 8.3}, {16.2, 8.3}},
-                     among[] = {{-9, 2}, {0, 2}, {4.5, 2}};
+    const glm::dvec2 above[] = {{1.2, 8.3}, {7.2, 8.3}, {16.2, 8.3}}, among[] = {{-9, 2}, {4.5, 2}};
     const auto pop = [&](const Scene& here, const Scene& there) {
         const auto [every, object] = bothWays(here);
         const auto [everyNext, objectNext] = bothWays(there);
