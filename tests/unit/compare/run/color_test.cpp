@@ -15,7 +15,10 @@ TEST(Color, MarksVerdictsWhereTheyBeginOrEndALine) {
     EXPECT_EQ(colored("  lit  relative  0.1  FAIL\n"), "  lit  relative  0.1  \033[1;31mFAIL\033[0m\n");
     EXPECT_EQ(colored("pass: all\nERROR x"), "\033[32mpass\033[0m: all\n\033[1;31mERROR\033[0m x");
     EXPECT_EQ(colored("  warning lit: a pass of light"), "  \033[33mwarning\033[0m lit: a pass of light");
-    for (const char* text : {"", "\n", "passes", "the pass failed", "bypass", "no verdict\n\n"})
+    EXPECT_EQ(colored("pass\nFAIL: not a pass"), "\033[32mpass\033[0m\n\033[1;31mFAIL\033[0m: not a pass");
+    EXPECT_EQ(colored("a warn\n warn"), "a \033[33mwarn\033[0m\n \033[33mwarn\033[0m");
+    for (const char* text : {"", "\n", "passes", "the pass failed", "bypass", "no verdict\n\n",
+                             "pass_2 and 2pass", "pass2", "_pass", "  "})
         EXPECT_EQ(colored(text), text);
 }
 
@@ -43,8 +46,10 @@ TEST(Color, NoColorIsHeeded) {
     EXPECT_TRUE(hasColor(ColorChoice::on, stream)) << "--color on says otherwise";
     setenv("NO_COLOR", "", 1);
     EXPECT_TRUE(hasColor(ColorChoice::automatic, stream)) << "set to nothing is not set (no-color.org)";
-    setenv("TERM", "dumb", 1);
-    EXPECT_FALSE(hasColor(ColorChoice::automatic, stream));
+    for (const char* term : {"dumb", ""}) {
+        setenv("TERM", term, 1);
+        EXPECT_FALSE(hasColor(ColorChoice::automatic, stream)) << term;
+    }
     std::fclose(stream);
     close(terminal);
 }

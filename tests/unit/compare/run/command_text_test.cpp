@@ -102,7 +102,19 @@ TEST(CommandArguments, OnlyWhatIsNotTheDefaultIsSaid) {
               "diptych render --path deferred --gbuffer compact a.glb");
 }
 
+TEST(CommandArguments, WordsAreQuotedWhereAShellWouldReadThem) {
+    const std::string plain = "azAZ09_-+=:,./@%";
+    EXPECT_EQ(shellWord(plain), plain);
+    EXPECT_EQ(shellWord(""), "''");
+    EXPECT_EQ(shellWord("it's"), "'it'\\''s'");
+    for (const char c : std::string(" !\"#$&()*;<>?[\\]^`{|}~\t\n\xc3"))
+        EXPECT_EQ(shellWord(std::string("a") + c), std::string("'a") + c + "'");
+    EXPECT_EQ(shellLine({"render", "a b"}), "diptych render 'a b'");
+}
+
 TEST(CommandArguments, AnOptionCanBeAddedWhateverTheSceneIsCalled) {
+    EXPECT_EQ(withArguments({"view", "--", "-a.glb"}, {"--pixel", "3,4", "-v"}),
+              (std::vector<std::string>{"view", "--pixel", "3,4", "-v", "--", "-a.glb"}));
     for (const std::string scene : {"a.glb", "--help"}) {
         const SceneGroup again = parsedAgain(
             shellLine(withOption(commandArguments("compare", scene, {}), "--channels", "normals")));

@@ -41,6 +41,12 @@ TEST(PrintFile, NoCharacterIsCutBetweenTwoPieces) {
         EXPECT_TRUE(printedOf(std::string(size, '\n')).size() == size) << size;
 }
 
+TEST(PrintMessage, IsALineOfTheTool) {
+    testing::internal::CaptureStderr();
+    printMessage("a.glb: is empty");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "diptych: a.glb: is empty\n");
+}
+
 // Output of a file with one long line begins before the file is read to its end.
 TEST(PrintFile, ALongLineIsPrintedAsItIsRead) {
     constexpr std::uintmax_t piece = std::uintmax_t{1} << 16;
