@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Choices compared with exhaustive sweeps: recorded times and errors of every candidate.
-#include "compare/choose/report.h"
 #include "compare/choose/search.h"
-#include "compare/output/writers.h"
-#include "compare/page/text.h"
 #include "tests/unit/compare/choose/replay.h"
 
 #include <fmt/format.h>
@@ -34,7 +31,7 @@ std::optional<double> bestOf(const RecordedSweep& sweep, const Budget& budget) {
     return best;
 }
 
-struct Outcome {
+struct SearchOutcome {
     bool right = false;
     double off = 0;      // chosen value relative to the best one
     double timings = 0;  // fraction of an exhaustive search's timings
@@ -68,8 +65,8 @@ std::optional<Settings> anyOf(const Settings& of, std::span<const Change> change
     return made;
 }
 
-Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candidates, Budget budget,
-                   const ReplayNoise& noise, std::uint64_t seed) {
+SearchOutcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candidates, Budget budget,
+                         const ReplayNoise& noise, std::uint64_t seed) {
     RecordedEvaluator evaluator(sweep, noise, seed);
     SearchOptions options;
     options.budget = budget;
@@ -84,7 +81,7 @@ Outcome chosenFrom(const RecordedSweep& sweep, std::span<const Settings> candida
     for (const Candidate& candidate : choice.candidates)
         if (candidate.race) raced += 2 * candidate.race->pairs;
     if (budget.ms) *budget.ms /= evaluator.drift(0.5 * raced);
-    Outcome outcome;
+    SearchOutcome outcome;
     outcome.timings =
         static_cast<double>(choice.timings) / (frames_of_each * static_cast<double>(sweep.rows.size()));
     outcome.evaluated = choice.evaluated;
@@ -147,7 +144,7 @@ void sweepAll(const ReplayNoise& noise, std::uint64_t seeds) {
         const std::vector<Settings> candidates = candidatesOf(sweep);
         for (const Budget& budget : budgetsFor(sweep))
             for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-                const Outcome outcome = chosenFrom(sweep, candidates, budget, noise, seed);
+                const SearchOutcome outcome = chosenFrom(sweep, candidates, budget, noise, seed);
                 ++tried;
                 good += outcome.right;
                 worst = std::max(worst, outcome.off);
@@ -291,22 +288,6 @@ TEST(ChooseTable, HoldsTheUsualChangesOfEachPath) {
     std::vector<Settings> many(40, Settings());
     for (std::size_t i = 1; i < many.size(); ++i) many[i].set("shadow-bias", std::to_string(i));
     EXPECT_EQ(tableOf(many).size(), 1u) << "no usual change";
-}
-
-TEST(ChooseWords, MetricsAreTimeErrorAndMemory) {
-    ChoiceReport report;
-    report.words = report.commands = {"one", "other"};
-    report.choice.candidates.resize(2);
-    Candidate& evaluated = report.choice.candidates[0];
-    evaluated.measured[Measure::ms] = 4.5;
-    evaluated.measured[Measure::flip] = 0.0125;
-    evaluated.measured[Measure::memory] = 3u << 20;
-    report.choice.chosen = 0;
-    const std::string metrics = "4.5 ms, FLIP 0.0125, " + page::bytes(3u << 20);
-    EXPECT_NE(inText(blocksOf(report)).find("\none\n" + metrics + "\n"), std::string::npos);
-    EXPECT_NE(inHtml(blocksOf(report)).find(metrics), std::string::npos);
-    report.choice.chosen = 1;
-    EXPECT_NE(inText(blocksOf(report)).find("\nother\nnot timed\n"), std::string::npos);
 }
 
 }  // namespace
