@@ -183,7 +183,7 @@ std::string fractionText(const Criterion& criterion) {
 std::string percentText(double fraction) {
     if (fraction > 0 && fraction < 1e-4) return "under 0.01 %";
     if (fraction < 1 && fraction > 0.9999) return "over 99.99 %";
-    return fmt::format("{:.3g} %", 100 * fraction);
+    return fmt::format("{:.{}g} %", 100 * fraction, fraction > 0.999 && fraction < 1 ? 4 : 3);
 }
 
 std::optional<std::string> violation(const Condition& condition, const Measured& measured) {

@@ -44,7 +44,17 @@ TEST(Criterion, NeverRoundsSomeToNoneOrMostToAll) {
     EXPECT_EQ(percentText(1), "100 %");
     EXPECT_EQ(percentText(0.123456), "12.3 %");
     EXPECT_EQ(percentText(1e-9), "under 0.01 %");
+    EXPECT_EQ(percentText(0.99e-4), "under 0.01 %");
+    EXPECT_EQ(percentText(1e-4), "0.01 %");
+    EXPECT_EQ(percentText(0.9991), "99.91 %");
+    EXPECT_EQ(percentText(0.9999), "99.99 %");
+    EXPECT_EQ(percentText(0.99991), "over 99.99 %");
     EXPECT_EQ(percentText(1 - 1e-9), "over 99.99 %");
+    Criterion criterion;
+    criterion.fraction = 0.25;
+    EXPECT_EQ(fractionText(criterion), ", at 25 % of the pixels");
+    criterion.differing = true;
+    EXPECT_EQ(fractionText(criterion), "; 25 % of the pixels differ");
 }
 
 // Among bounds that must all be met, the most used one decides; among alternatives, the least used one.
@@ -55,11 +65,16 @@ TEST(Criterion, IsTheBoundThatDecides) {
     const auto bound = [](const char* metric, double limit) {
         return Condition{Condition::Kind::bound, {metric, 0}, limit, {}};
     };
-    const Condition all{Condition::Kind::all, {}, 0, {bound("max", 1), bound("mean", 0.11)}},
+    Condition all{Condition::Kind::all, {}, 0, {bound("max", 1), bound("mean", 0.11)}},
         any{Condition::Kind::any, {}, 0, {bound("max", 0.1), bound("psnr", 40)}};
-    EXPECT_EQ(decidingBound(all, measured)->metric, "mean");
-    EXPECT_EQ(decidingBound(any, measured)->metric, "psnr");
-    EXPECT_TRUE(decidingBound(any, measured)->min);
+    for (int order = 0; order < 2; ++order) {
+        EXPECT_EQ(decidingBound(all, measured)->metric, "mean");
+        EXPECT_EQ(decidingBound(all, measured)->limit, 0.11);
+        EXPECT_EQ(decidingBound(any, measured)->metric, "psnr");
+        EXPECT_EQ(decidingBound(any, measured)->measured, 30);
+        EXPECT_TRUE(decidingBound(any, measured)->min);
+        for (Condition* condition : {&all, &any}) std::swap(condition->parts[0], condition->parts[1]);
+    }
     EXPECT_FALSE(decidingBound({Condition::Kind::all, {}, 0, {}}, measured).has_value());
 }
 

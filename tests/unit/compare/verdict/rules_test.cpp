@@ -9,8 +9,11 @@
 
 #include <fstream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace diptych {
 namespace {
@@ -155,6 +158,85 @@ TEST(Rules, FaultsWordByWord) {
         fault({{"presets", {{"a", {{"preset", "b"}}}, {"b", {{"preset", "a"}}}}}, {"rules", Json::array()}}),
         "dir/t.json: preset a: preset a refers to itself");
     EXPECT_EQ(fault(std::string(200, '[')), "dir/t.json: is nested deeper than 128 levels");
+}
+
+// What a condition bounds by all, or by any, of its parts.
+TEST(Rules, ABoundOfPartsAppliesIfItAlwaysDoes) {
+    const auto bound = [](const char* metric, double limit) {
+        return Condition{Condition::Kind::bound, {metric, 0}, limit, {}};
+    };
+    const auto of = [](Condition::Kind kind, std::vector<Condition> parts) {
+        return Condition{kind, {}, 0, std::move(parts)};
+    };
+    constexpr auto all = Condition::Kind::all, any = Condition::Kind::any;
+    struct Row {
+        Condition condition;
+        bool bounds, only;
+        std::optional<double> limit;
+        const char* text;
+    };
+    const Condition one = bound("max", 1), two = bound("max", 2), mean = bound("mean", 3);
+    const Row rows[] = {
+        {one, true, true, 1, "max <= 1"},
+        {mean, false, false, {}, "mean <= 3"},
+        {of(all, {}), false, false, {}, ""},
+        {of(all, {one, two}), true, true, 1, "max <= 1 and max <= 2"},
+        {of(all, {two, one}), true, true, 1, "max <= 2 and max <= 1"},
+        {of(all, {mean, two}), true, false, 2, "mean <= 3 and max <= 2"},
+        {of(any, {one, two}), true, true, {}, "max <= 1 or max <= 2"},
+        {of(any, {mean, mean}), false, false, {}, "mean <= 3 or mean <= 3"},
+        {of(all, {of(any, {one, mean}), two}), true, false, 2, "(max <= 1 or mean <= 3) and max <= 2"}};
+    for (const Row& row : rows) {
+        EXPECT_EQ(conditionText(row.condition), row.text);
+        EXPECT_EQ(boundsMetric(row.condition, "max"), row.bounds) << row.text;
+        EXPECT_EQ(boundsOnly(row.condition, "max"), row.only) << row.text;
+        EXPECT_EQ(boundOn(row.condition, "max"), row.limit) << row.text;
+    }
+    EXPECT_EQ(conditionText({Condition::Kind::bound, {"failing", 0.5}, 0.25, {}}),
+              "share of pixels above 0.5 <= 0.25");
+}
+
+TEST(Rules, PatternsAreToldFromNames) {
+    struct Row {
+        const char* channel;
+        bool names, pattern;
+        const char* idle;
+    };
+    const std::vector<std::string> channels{"lit", "albedo"};
+    for (const Row& row : {Row{"*", false, true, nullptr},
+                           {"**", false, true, nullptr},
+                           {"l?t", true, true, nullptr},
+                           {"lit", true, false, nullptr},
+                           {"x*", true, true, "t.json, rule 1: no channel here is called x*"},
+                           {"?", true, true, "t.json, rule 1: no channel here is called ?"},
+                           {"albeod", true, false,
+                            "t.json, rule 1: no channel here is called albeod; did you mean albedo?"}}) {
+        const Rule rule = onlyRule({{"channel", row.channel}, {"max", 1}, {"because", "x"}});
+        EXPECT_EQ(namesChannels(rule), row.names) << row.channel;
+        EXPECT_EQ(isPattern(rule), row.pattern) << row.channel;
+        const auto idle = idleRules(std::span(&rule, 1), channels);
+        ASSERT_EQ(idle.size(), row.idle ? 1u : 0u) << row.channel;
+        if (row.idle) {
+            EXPECT_EQ(idleText(*idle[0], channels), row.idle);
+        }
+    }
+}
+
+TEST(Rules, OfASceneAreThoseOfItsNameAndOfAll) {
+    const auto rules = rulesFromJson(R"({"rules": [
+        {"channel": "lit", "max": 1, "because": "all"},
+        {"channel": "lit", "scene": "builtin:*", "max": 1, "because": "ours"},
+        {"channel": "lit", "scene": "a.glb", "max": 1, "because": "one"}]})",
+                                     "t.json");
+    for (const auto& [scene, reasons] :
+         {std::pair{"builtin:one", "all ours "}, {"a.glb", "all one "}, {"b.glb", "all "}}) {
+        std::string found;
+        for (const Rule& rule : rulesOfScene(rules, scene)) found += rule.because + " ";
+        EXPECT_EQ(found, reasons);
+    }
+    EXPECT_EQ(nameOf(Level::pass), "pass");
+    EXPECT_EQ(nameOf(Level::warn), "warn");
+    EXPECT_EQ(nameOf(Level::fail), "fail");
 }
 
 // The JSON schema for editors has the same metrics.
