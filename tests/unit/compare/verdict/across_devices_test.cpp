@@ -2,6 +2,7 @@
 // One path on two devices: hand-made Frames that differ in one way, within the allowed precision or beyond
 // it.
 #include "compare/verdict/across_devices.h"
+#include "compare/explain/device_contributions.h"
 #include "compare/verdict/comparison.h"
 #include "compare/verdict/device_bounds.h"
 #include "compare/verdict/surface_grid.h"
@@ -15,6 +16,8 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <tuple>
+#include <vector>
 
 namespace diptych {
 namespace {
@@ -470,6 +473,90 @@ TEST_F(AcrossDevicesPair, EachToleranceHasItsReason) {
           "a shades the surfaces that b rendered, both in float32: 1e-4 each (relative to at least a tenth "
           "of the mean luminance: area-light integrals cancel) before blending; after blending, no more "
           "than neighbouring pixels differ"}});
+}
+
+// Each cause's map belongs to a source by its channel, and to edges where another surface is visible.
+TEST_F(AcrossDevicesPair, AnExplanationIsDividedAmongSources) {
+    showAnother(across_side / 2, 7, 0);
+    across_.devices[1].sub_pixel_bits = 8;
+    across_.devices[0].texels->linear_filter.rounding = 0.25 / 255;
+    across_.devices[1].texels->linear_filter.rounding = 0.5 / 255;
+    across_.devices[1].texels->srgb[7] *= 1.015f;
+    std::fill_n(across_.texels.at(Channel::albedo).data.begin(), 512, 0.5f);
+    Explanation explanation;
+    double value = 1, all = 0;
+    for (const char* cause : {"position", "geometric_normal", "roughness", "albedo", "shadow_visibility",
+                              "local_visibility", "light_count", "--haze", "lit"}) {
+        explanation.causes.emplace_back().name = cause;
+        explanation.causes.back().map = Image(across_side, across_side, 1, static_cast<float>(value));
+        all += value;
+        value *= 2;
+    }
+    explanation.unexplained_map = Image(across_side, across_side, 1, 512.0f);
+    all += 512;
+    const auto divided = [&] {
+        std::vector<std::tuple<std::string, double, std::string>> said;
+        for (const DeviceContribution& each :
+             deviceContributions(explanation, report_.frames[0], report_.frames[1], across_))
+            said.emplace_back(each.name, each.contribution, each.description);
+        return said;
+    };
+    constexpr double seen = 1023.0 / 1024, textured = 511.0 / 1024;
+    auto expected = std::vector<std::tuple<std::string, double, std::string>>{
+        {"rounding", (128 + 256 + 512) * seen, "shading of the same surfaces, blending and everything else"},
+        {"light lists", 64 * seen, "different lights are evaluated"},
+        {"shadow maps", (16 + 32) * seen, "visibility of shadow-casting lights"},
+        {"vertices", (1 + 2 + 4) * seen + 8 * 0.5, "snapped to 1/32 and 1/256 of a pixel"},
+        {"textures", 8 * textured,
+         "decoding and filtering; measured: sRGB decoding differs by up to 1.5 %, filters round by up to "
+         "0.25 "
+         "and 0.5 of an 8-bit step"},
+        {"edges", all / 1024, "another triangle at 1 pixel, another shadow beside its boundary at 0 pixels"}};
+    EXPECT_EQ(divided(), expected);
+    // Two surfaces of equal depth count as edges.
+    across_.surface_at = [](int, const float*, double, bool) { return true; };
+    *there(Channel::depth, across_side / 2, 7) = *at(0, Channel::depth).pixel(index(across_side / 2, 7));
+    across_.devices[1].texels.reset();
+    std::get<2>(expected[4]) = "decoding and filtering";
+    EXPECT_EQ(divided(), expected);
+}
+
+// Pixels beside edges, how many of them may differ, and the first that must not.
+TEST(SurfacePixels, AreSaidWithTheirLimits) {
+    SurfacePixels pixels;
+    const std::string start = "not compared: ";
+    EXPECT_EQ(pixels.describe(),
+              start +
+                  "0 pixels where the other device shows another triangle, all beside an edge (tolerance: "
+                  "0 of 0)");
+    EXPECT_EQ(pixels.fault(), "");
+    pixels.triangles = {2, 100, 8, 0, -1, -1};
+    pixels.shadows = {3, 50, 9, 0, -1, -1};
+    pixels.tied = 4;
+    EXPECT_EQ(pixels.count(), 9u);
+    EXPECT_EQ(pixels.describe(),
+              start +
+                  "2 pixels where the other device shows another triangle, all beside an edge (tolerance: "
+                  "8 of 100); 3 in another shadow, all beside a shadow boundary (tolerance: 9 of 50); 4 "
+                  "where two surfaces have the same depth");
+    pixels.triangles.count = 8;
+    pixels.shadows.count = 9;
+    EXPECT_EQ(pixels.fault(), "");
+    pixels.shadows.count = 10;
+    EXPECT_EQ(pixels.fault(),
+              "the other device shows another shadow at 10 pixels; tolerance: 9 of the 50 pixels beside a "
+              "shadow boundary");
+    pixels.shadows.strays = 1;
+    pixels.shadows.x = 5, pixels.shadows.y = 6;
+    EXPECT_EQ(pixels.fault(),
+              "the other device shows another shadow at 1 pixel not beside a shadow boundary, the first at "
+              "5,6");
+    pixels.triangles.count = 9;
+    EXPECT_EQ(pixels.fault(),
+              "the other device shows another triangle at 9 pixels; tolerance: 8 of the 100 pixels beside an "
+              "edge");
+    EXPECT_EQ(surfacePixelChannels(), (std::vector<Channel>{Channel::material_id, Channel::depth,
+                                                            Channel::position, Channel::geometric_normal}));
 }
 
 TEST_F(AcrossDevicesPair, ANumberAgainstNoneFails) {

@@ -72,11 +72,6 @@ TEST(CloserPath, SaysWhichWhereAndByHowMuch) {
     EXPECT_EQ(closerPathLine(closer, closer.channels[0], frames),
               "lit: forward_plus is closer to the reference: mean error 0.0375 against 0.075 for deferred (2 "
               "times less); it is closer at 50.0 % of the pixels (deferred at 25.0 %, equal at 25.0 %)");
-    CloserPathChannel far = closer.channels[0];
-    for (const auto& [by, words] : {std::pair{21462.0, "(21500 times less)"}, {1.5, "(1.5 times less)"}}) {
-        far.by = by;
-        EXPECT_NE(closerPathLine(closer, far, frames).find(words), std::string::npos);
-    }
 }
 
 TEST(CloserPath, WhatCannotBeToldApartIsEven) {
@@ -93,8 +88,6 @@ TEST(CloserPath, WhatIsExactIsInfinitelyCloser) {
     const CloserPathChannel channel = litOf(frames);
     EXPECT_EQ(channel.closer, 0);
     EXPECT_TRUE(std::isinf(channel.by));
-    const CloserPath closer = closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {});
-    EXPECT_NE(closerPathLine(closer, closer.channels[0], frames).find("no error"), std::string::npos);
     const auto broken = threeFrames({1, 1}, {std::numeric_limits<float>::quiet_NaN(), 1}, {1.5f, 1});
     EXPECT_EQ(litOf(broken).closer, 1);
 }
@@ -102,11 +95,71 @@ TEST(CloserPath, WhatIsExactIsInfinitelyCloser) {
 TEST(CloserPath, TheImageHasEachPathsColour) {
     Image error_difference(3, 1, 1);
     error_difference.data = {-1, 0, 0.25f};
-    const Image8 image = closerPathImage(error_difference, 1);
-    EXPECT_EQ(std::vector<std::uint8_t>(image.data.begin(), image.data.begin() + 3),
-              (std::vector<std::uint8_t>{111, 155, 232}));
-    EXPECT_EQ(image.data[4], 0);
-    EXPECT_EQ(image.data[6], 112) << "the root of a quarter: half of 224";
+    // The root of a quarter is half of each component; the first path's colour where it is closer.
+    EXPECT_EQ(closerPathImage(error_difference, 1).data,
+              (std::vector<std::uint8_t>{111, 155, 232, 0, 0, 0, 112, 83, 41}));
+    error_difference.data = {-8, NAN, 1};
+    EXPECT_EQ(closerPathImage(error_difference, 4).data,
+              (std::vector<std::uint8_t>{111, 155, 232, 0, 0, 0, 112, 83, 41}));
+}
+
+TEST(CloserPath, EachOutcomeHasItsLine) {
+    const auto lineOf = [](const std::vector<float>& deferred, const std::vector<float>& forward,
+                           const std::vector<float>& reference = {1, 1}) {
+        const auto frames = threeFrames(reference, deferred, forward);
+        const CloserPath closer = closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {});
+        return closerPathLine(closer, closer.channels[0], frames);
+    };
+    EXPECT_EQ(lineOf({1.5f, 1}, {1.5f, 1}),
+              "lit: both paths are equally close to the reference, mean errors 0.25 and 0.25");
+    EXPECT_EQ(
+        lineOf({1, 1}, {1.5f, 1}),
+        "lit: deferred is closer to the reference: mean error 0 against 0.25 for forward_plus (no error); "
+        "it is closer at 50.0 % of the pixels (forward_plus at 0.0 %, equal at 50.0 %)");
+    EXPECT_EQ(lineOf({1.5f, HUGE_VALF}, {1.5f, 1.25f}),
+              "lit: forward_plus is closer to the reference: mean error 0.375 against inf for deferred "
+              "(infinite); it is closer at 50.0 % of the pixels (deferred at 0.0 %, equal at 50.0 %)");
+    CloserPathChannel far = litOf(threeFrames({1, 1}, {1, 1}, {1.5f, 1}));
+    const auto frames = threeFrames({1, 1}, {1, 1}, {1.5f, 1});
+    const CloserPath closer = closerPathOf(frames, 0, {1, 2}, coverage(frames[0], frames[1]), {});
+    for (const auto& [by, words] : {std::pair{999.4, "(999 times less)"},
+                                    {1000, "(1000 times less)"},
+                                    {1004, "(1000 times less)"},
+                                    {1006, "(1010 times less)"},
+                                    {21462, "(21500 times less)"},
+                                    {1.5, "(1.5 times less)"}}) {
+        far.by = by;
+        EXPECT_NE(closerPathLine(closer, far, frames).find(words), std::string::npos) << by;
+    }
+}
+
+// Eight materials, by how much they add to the difference of the two means: apart by 0.1 n at each pixel.
+TEST(CloserPath, MaterialsThatDecideComeFirst) {
+    std::vector<float> reference(12, 1), deferred(12, 1), forward(12, 1);
+    for (std::size_t i = 0; i < 12; ++i) (i % 2 ? deferred : forward)[i] += 0.125f * static_cast<float>(i);
+    auto frames = threeFrames(reference, deferred, forward);
+    std::vector<int> expected;
+    for (int i = 0; i < 10; ++i) frames[0].channels[Channel::material_id].at(i, 0) = static_cast<float>(i);
+    // Material 9 has the last three pixels: 1.125 + 1.375 - 1.25.
+    for (const int i : {10, 11}) frames[0].channels[Channel::material_id].at(i, 0) = 9;
+    const CloserPathChannel lit = litOf(frames);
+    for (const MaterialError& material : lit.materials) expected.push_back(material.id);
+    EXPECT_EQ(expected, (std::vector<int>{9, 8, 7, 6, 5, 4, 3, 2}));
+    EXPECT_EQ(lit.materials[0].name, "");
+    EXPECT_EQ(lit.materials[7].name, "gold");
+    EXPECT_EQ(lit.materials[0].pixels, 3u);
+    EXPECT_NEAR(lit.materials[0].mean[0], 2.5 / 3, 1e-6);
+    EXPECT_NEAR(lit.materials[0].mean[1], 1.25 / 3, 1e-6);
+}
+
+// The 99th percentile of the pixels that differ.
+TEST(CloserPath, AnImagesTopLeavesOutOneInAHundred) {
+    Image difference(20, 20, 1);
+    for (std::size_t i = 0; i < 201; ++i)
+        difference.data[i] = (i % 2 ? -1.0f : 1.0f) * static_cast<float>(i + 1);
+    difference.data[300] = HUGE_VALF;
+    EXPECT_EQ(closerPathTop(difference), 199);
+    EXPECT_EQ(closerPathTop(Image(2, 2, 1)), 1);
 }
 
 // An error within the reference's own uncertainty is not counted against a path; a larger one is.

@@ -3,6 +3,7 @@
 // that either can fail.
 #include "compare/verdict/footprint.h"
 #include "compare/metrics/flip.h"
+#include "compare/verdict/blended_pixels.h"
 #include "compare/verdict/comparison.h"
 #include "shared/frame/supported_channels.h"
 #include "tests/support/report_builder.h"
@@ -359,6 +360,26 @@ TEST(Footprint, TexelsOfF0AreGrantedToTheAlbedoThatTheyDarken) {
     for (Frame& frame : frames)
         for (float& v : channelIn(frame, Channel::dielectric_f0).data) v = 0.01f;
     EXPECT_EQ(evaluated(frames, Channel::albedo, options, glossy).verdict, Verdict::fail);
+}
+
+// The tolerance's words, with the numbers of each kind of pixel that there is.
+TEST(Footprint, ATolerancesWordsCountItsPixels) {
+    Footprints f;
+    f.smooth = 1;
+    f.max = 0.25;
+    const std::string smooth =
+        " with smooth surroundings in both images; the bound of each is the reference's change within two "
+        "pixels, 8-bit texel filtering, G-buffer quantization and 1e-4";
+    EXPECT_EQ(footprintTolerance(f).because, "1 pixel" + smooth);
+    EXPECT_EQ(footprintTolerance(f).max, 0.25);
+    EXPECT_TRUE(footprintTolerance(f).max_pixels);
+    f.smooth = 3, f.glass = 1, f.detailed = 4, f.edges = 5, f.flip = 0.12345;
+    EXPECT_EQ(footprintTolerance(f).because,
+              "3 pixels" + smooth + "; 1 pixel may have " + std::string(throughGlassBecause) +
+                  "; the other 4 may have a mean FLIP of 0.3 and have 0.123; 5 at edges have no limit");
+    EXPECT_EQ(f.pixels(), 12u);
+    EXPECT_EQ(f.closeFraction(), 0.25);
+    EXPECT_EQ(Footprints().closeFraction(), 1);
 }
 
 TEST(Footprint, OtherComparisonsHaveNone) {

@@ -63,5 +63,21 @@ TEST(GlassChannels, ATextureMayBeACodeOff) {
     EXPECT_LE(p.excess(), 1) << "float32";
 }
 
+// A code of 8 bits: of a number, or of the thickness that a texture scales. Other channels have no texels.
+TEST(GlassChannels, TexelsHave8Bits) {
+    GlassPair p;
+    p.needs.textures = 1;
+    p.needs.volume_thickness_range = 3;
+    for (const auto& [channel, allowed] : {std::pair{Channel::transmission, 1.0 / 255},
+                                           {Channel::transmission_thickness, 3.0 / 255},
+                                           {Channel::dispersion, 0.0}}) {
+        const DebugMode& mode = debugMode(channel);
+        p.reference.channels[channel] = Image(glassSide, glassSide, mode.width, 0.5f);
+        const FramePair pair{p.reference, p.path, p.needs, p.covered};
+        EXPECT_EQ(BlendedPixels(pair).allowed(mode, glassSide - 1), allowed) << mode.name;
+        EXPECT_EQ(BlendedPixels(pair).allowed(mode, 0), 0) << mode.name << ": no glass";
+    }
+}
+
 }  // namespace
 }  // namespace diptych

@@ -55,5 +55,40 @@ TEST(ShadowEdges, AClipmapReachesByTheLevelThatServes) {
     EXPECT_EQ(nearOf(path, {0.3f, 0.3f, 0.3f, 2.9f}), (std::vector{false, true, false, true}));
 }
 
+// Within a filter radius, all that the light adds, or all of its visibility; a distance equal to it counts.
+TEST(ShadowEdges, GrantWhatTheirLightsAdd) {
+    Frame reference, path;
+    reference.settings.path = Path::reference;
+    path.settings.path = Path::deferred;
+    reference.shadow_edge = rowOf({0.125f, 3, 0.25f, 3, 0.125f, 3, 9, 3}, 2);
+    reference.local_shadow_edge = rowOf({0.5f, 5, 0.5f, 5, 0.75f, 5, 0.75f, 5}, 2);
+    path.shadow_filter_radii = {{10, 0.125}};
+    path.local_shadow_filter_radius = 0.5;
+    path.channels[Channel::depth] = rowOf({1, 1, 1, 1});
+    const Requirements needs;
+    const Coverage coverage = everyPixel(4);
+    const auto grantedTo = [&](Channel mode) {
+        const FramePair pair{path, reference, needs, coverage};
+        const ShadowEdges edges(pair);
+        std::vector<double> granted;
+        for (std::size_t i = 0; i < 4; ++i) granted.push_back(edges.allowed(debugMode(mode), i));
+        return granted;
+    };
+    using Granted = std::vector<double>;
+    for (const Channel mode : {Channel::lit, Channel::lit_diffuse, Channel::lit_specular})
+        EXPECT_EQ(grantedTo(mode), (Granted{8, 5, 3, 0})) << debugMode(mode).name;
+    EXPECT_EQ(grantedTo(Channel::shadow_visibility), (Granted{1, 0, 1, 0}));
+    EXPECT_EQ(grantedTo(Channel::local_visibility), (Granted{1, 1, 0, 0}));
+    for (const Channel mode :
+         {Channel::lit_ambient, Channel::lit_haze, Channel::albedo, Channel::light_count})
+        EXPECT_EQ(grantedTo(mode), (Granted{0, 0, 0, 0})) << debugMode(mode).name;
+    path.local_shadow_filter_radius = 0;
+    EXPECT_EQ(grantedTo(Channel::lit), (Granted{3, 0, 3, 0})) << "no local shadows";
+    reference.shadow_edge = {};
+    EXPECT_EQ(grantedTo(Channel::lit), (Granted{0, 0, 0, 0}));
+    path.local_shadow_filter_radius = 0.5;
+    EXPECT_EQ(grantedTo(Channel::lit), (Granted{5, 5, 0, 0})) << "no sun";
+}
+
 }  // namespace
 }  // namespace diptych
