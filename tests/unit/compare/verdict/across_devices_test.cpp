@@ -559,6 +559,45 @@ TEST(SurfacePixels, AreSaidWithTheirLimits) {
                                                             Channel::position, Channel::geometric_normal}));
 }
 
+// A pixel's angle: of the image's height in perspective, of its depth in an orthographic view.
+TEST_F(AcrossDevicesPair, APixelsAngleFollowsTheCamera) {
+    Frame& frame = report_.frames[0];
+    *at(0, Channel::depth).pixel(index(3, 4)) = 6;
+    EXPECT_NEAR(pixelsPerRadian(frame, index(3, 4)),
+                across_side / (2 * std::tan(30 * 3.14159265358979 / 180)), 1e-9);
+    const Coverage coverage = everyPixel(std::size_t{across_side} * across_side);
+    const FramePair pair{frame, report_.frames[1], needs_, coverage};
+    // Both devices' 28 roundings of 2^-24 of the distance, over the distance of neighbouring pixels.
+    EXPECT_NEAR(FacetBound(pair)(index(3, 4)),
+                2 * 28 * 0x1p-24 * pixelsPerRadian(frame, index(3, 4)) * degreesPerRadian, 1e-12);
+    frame.camera.fov_degrees = 0;
+    frame.camera.ymag = 2;
+    EXPECT_EQ(pixelsPerRadian(frame, index(3, 4)), 6.0 * across_side / 4);
+    frame.channels.erase(Channel::depth);
+    EXPECT_EQ(pixelsPerRadian(frame, index(3, 4)), across_side);
+}
+
+// A pixel's neighbours of its material, surface and triangle.
+TEST_F(AcrossDevicesPair, AGridKnowsWhichNeighboursAreOfOneSurface) {
+    for (const std::size_t frame : {0, 1}) {
+        at(frame, Channel::geometric_normal).at(20, 9, 1) =
+            0.8f;  // a triangle of one pixel, turned by 16 degrees
+        at(frame, Channel::geometric_normal).at(20, 9, 2) = 0.6f;
+    }
+    const Coverage coverage = everyPixel(std::size_t{across_side} * across_side);
+    const FramePair pair{report_.frames[0], report_.frames[1], needs_,  coverage, true,
+                         nullptr,           nullptr,           &across_};
+    const SurfaceGrid grid(pair);
+    const std::uint8_t all = grid.surface[index(5, 9)];
+    EXPECT_EQ(all, grid.material[index(5, 9)]);
+    EXPECT_EQ(grid.material[index(20, 9)], all);
+    EXPECT_EQ(grid.narrow[index(5, 9)], 0);
+    EXPECT_EQ(grid.narrow[index(20, 9)], 1);
+    EXPECT_EQ(grid.steeper[index(5, 9)], 1) << "a plane is as steep as it looks";
+    EXPECT_NE(grid.material[index(across_side / 2, 9)], all) << "beside another material";
+    EXPECT_EQ(grid.material[index(across_side / 2, 9)], grid.surface[index(across_side / 2, 9)]);
+}
+
 TEST_F(AcrossDevicesPair, ANumberAgainstNoneFails) {
     *there(Channel::roughness, 3, 3) = std::nanf("");
     EXPECT_NE(faults().find("roughness"), std::string::npos);

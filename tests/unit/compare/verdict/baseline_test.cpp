@@ -150,6 +150,33 @@ TEST(BaselineMismatches, EverySettingIsNamed) {
     EXPECT_EQ(cases + 2, defaults.size());
 }
 
+// Another renderer's file: nothing but that is known of it.
+TEST(BaselineMismatches, OfAnotherProgramNothingIsKnown) {
+    Frame other = drawnNow(Path::reference);
+    other.origin = {"b.exr", "", "", ""};
+    other.scene.clear();
+    EXPECT_EQ(baselineMismatches(other, drawnNow(), aCpu),
+              Lines{"baseline: not written by diptych: scene, camera and Settings are unknown"});
+}
+
+// A replaced baseline is kept beside the new one.
+TEST(Baseline, AnUpdateKeepsTheOldFile) {
+    const std::filesystem::path file = folder() / "b.exr", old = file.string() + ".old";
+    Frame first = drawnNow(), second = first;
+    second.channels.at(Channel::lit).data[0] = 2;
+    EXPECT_EQ(updateBaseline(file, first, aCpu),
+              fmt::format("baseline {} written from deferred", file.string()));
+    EXPECT_FALSE(std::filesystem::exists(old));
+    for (const Frame& frame : {second, first}) {
+        const PixelData before = frameFromExr(file).channels.at(Channel::lit).data;
+        EXPECT_EQ(updateBaseline(file, frame, aCpu),
+                  fmt::format("baseline {} replaced from deferred; the old one is now {}", file.string(),
+                              old.string()));
+        EXPECT_EQ(frameFromExr(file).channels.at(Channel::lit).data, frame.channels.at(Channel::lit).data);
+        EXPECT_EQ(frameFromExr(old).channels.at(Channel::lit).data, before);
+    }
+}
+
 TEST(Baseline, AReferenceOfFewerSamplesIsNoTruthOfThem) {
     Settings reference, path;
     reference.path = Path::reference;

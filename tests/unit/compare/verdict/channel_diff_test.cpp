@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace diptych {
 namespace {
@@ -113,6 +116,103 @@ TEST(ChannelDiff, TheNoiseOfBothPathsIsGranted) {
                 channelIn(strict, Channel::roughness).tolerance.max + 0.375, 1e-12);
     frames[1].channels.at(Channel::roughness).at(1, 2) += 0.01f;
     EXPECT_FALSE(comparedPair(frames, allowed, card).passed());
+}
+
+// A value that no channel may have fails even if both images have it, at covered pixels alone.
+TEST(ChannelDiff, AValueOutOfRangeFailsByName) {
+    struct Row {
+        Channel mode;
+        std::vector<float> value;
+        const char* fault;  // nullptr: none
+    };
+    const Row rows[] = {
+        {Channel::normals, {0, 2, 0}, "vectors are not of unit length at 1 pixel, the worst 2 at 1,2"},
+        {Channel::normals, {0, 0, 0}, "vectors are not of unit length at 1 pixel, the worst 0 at 1,2"},
+        {Channel::normals, {0, 0.6f, 0.8f}, nullptr},
+        {Channel::anisotropy_direction, {0, 0, 0}, nullptr},
+        {Channel::anisotropy_direction,
+         {0, 0, 0.5f},
+         "vectors are neither 0 nor of unit length at 1 pixel, the worst 0.5 at 1,2"},
+        {Channel::metallic, {1}, nullptr},
+        {Channel::metallic, {1.25f}, "values are not between 0 and 1 at 1 pixel, the worst 1.25 at 1,2"},
+        {Channel::metallic, {-0.25f}, "values are not between 0 and 1 at 1 pixel, the worst -0.25 at 1,2"},
+        {Channel::albedo,
+         {-0.25f, 0.5f, 1.5f},
+         "values are not between 0 and 1 at 1 pixel, the worst 1.5 at 1,2"},
+        {Channel::depth, {7}, nullptr},
+        {Channel::depth, {-7}, "values are negative at 1 pixel, the worst -7 at 1,2"},
+        {Channel::position, {-7, -8, -9}, nullptr}};
+    for (const Row& row : rows) {
+        std::vector<Frame> frames = framesOf(row.mode);
+        for (Frame& frame : frames)
+            std::ranges::copy(row.value, frame.channels.at(row.mode).pixel(
+                                             frame.channels.at(row.mode).offset(1, 2) / row.value.size()));
+        EXPECT_EQ(channelIn(comparedPair(frames), row.mode).reason,
+                  row.fault ? std::string("deferred: ") + row.fault : "")
+            << debugMode(row.mode).name << row.value[0];
+    }
+    // Two pixels, the worst second; one of the test alone; background and files have no range.
+    std::vector<Frame> frames = framesOf(Channel::metallic);
+    for (Frame& frame : frames) {
+        frame.channels.at(Channel::material_id).at(3, 0) = 3;
+        frame.channels.at(Channel::metallic).at(3, 0) = 1.25f;
+        frame.channels.at(Channel::metallic).at(1, 2) = 2;
+        frame.channels.at(Channel::metallic).at(0, 0) = 9;
+    }
+    EXPECT_EQ(channelIn(comparedPair(frames), Channel::metallic).reason,
+              "deferred: values are not between 0 and 1 at 2 pixels, the worst 2 at 1,2");
+    frames[0].origin = {"kept.exr", "a CPU", "1.0", ""};
+    EXPECT_EQ(channelIn(comparedPair(frames), Channel::metallic).reason,
+              "forward_plus: values are not between 0 and 1 at 2 pixels, the worst 2 at 1,2");
+    frames[1].origin = frames[0].origin;
+    EXPECT_EQ(channelIn(comparedPair(frames), Channel::metallic).reason, "");
+}
+
+TEST(ChannelDiff, HowMuchOfItsToleranceIsUsed) {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    struct Row {
+        Verdict verdict;
+        double max;
+        std::optional<std::uint64_t> unexplained;
+        std::optional<double> measured;
+        double used;
+    };
+    for (const Row& row : {Row{Verdict::pass, 1, {}, 1, 0.25},
+                           {Verdict::fail, 1, {}, 8, 2},
+                           {Verdict::informative, 1, {}, {}, 0},
+                           {Verdict::pass, 0, {}, 1, 0},
+                           {Verdict::forward_only, 1, {}, 1, 0},
+                           {Verdict::deferred_only, 1, {}, 1, 0},
+                           {Verdict::fail, 1, 2, 1, endless},
+                           {Verdict::fail, 1, 0, 1, 0.25},
+                           {Verdict::pass, 1, 2, 1, 0.25}}) {
+        ChannelDiff channel;
+        channel.verdict = row.verdict;
+        channel.stats.max = row.max;
+        channel.unexplained_pixels = row.unexplained;
+        if (row.measured) {
+            channel.criterion.emplace();
+            channel.criterion->measured = *row.measured;
+            channel.criterion->limit = 4;
+        }
+        EXPECT_EQ(usedFraction(channel), row.used) << nameOf(row.verdict);
+    }
+}
+
+// Without a bound on the largest error, a rule leaves it open.
+TEST(ChannelDiff, ARulesToleranceIsItsBoundOnTheLargestError) {
+    std::vector<Frame> frames = framesOf(Channel::metallic);
+    for (const auto& [member, max] :
+         {std::pair{"max", 0.5}, {"mean", std::numeric_limits<double>::infinity()}}) {
+        CompareOptions options;
+        options.rules = rulesFromJson(std::string(R"({"rules": [{"channel": "metallic", ")") + member +
+                                          R"(": 0.5, "because": "half"}]})",
+                                      "t.json");
+        const ChannelDiff channel = channelIn(comparedPair(frames, options), Channel::metallic);
+        EXPECT_EQ(channel.tolerance.max, max);
+        EXPECT_EQ(channel.tolerance.because, "half");
+        EXPECT_EQ(channel.rule, std::string("t.json, rule 1: ") + member + " <= 0.5");
+    }
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Options for comparing two paths: rules, masks, noise; and comparison with an earlier image.
+#include "compare/frames/frame_properties.h"
+#include "compare/verdict/encoding_bits.h"
+#include "compare/verdict/footprint.h"
 #include "compare/verdict/measurement.h"
 #include "compare/verdict/pair_reports.h"
+#include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
 #include "tests/support/report_builder.h"
 
@@ -10,6 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <span>
 
 namespace diptych {
 namespace {
@@ -166,6 +172,57 @@ TEST(CompareOptions, ABaselineIsHeldAgainstBothPaths) {
     EXPECT_EQ(report.test(report.comparisons[1]).name, frames[1].name);
     EXPECT_EQ(litOf(report).stats.different, 0u) << "the same path, unchanged";
     EXPECT_FALSE(report.passed()) << "the other path";
+}
+
+// Channels that a comparison draws besides those asked for, once each, by what is compared.
+TEST(CompareOptions, HelpersAreDrawnBesideTheChannels) {
+    using Channels = std::vector<Channel>;
+    Settings packed, full;
+    packed.path = full.path = Path::deferred;
+    packed.gbuffer = GBufferEncoding::standard;
+    packed.shadows = full.shadows = Shadows::off;
+    full.gbuffer = GBufferEncoding::full;
+    Settings shadowed = full;
+    shadowed.shadows = Settings().shadows;
+    ASSERT_NE(shadowed.shadows, Shadows::off);
+    const auto helpers = [](const Channels& asked, const Settings& settings, bool traced = false,
+                            bool across = false) {
+        RenderOptions options;
+        options.channels = asked;
+        const RenderOptions drawn =
+            evaluatedOptions(options, std::span(&settings, 1), traced, across, options.twice);
+        EXPECT_TRUE(drawn.through_gbuffer);
+        EXPECT_TRUE(drawn.environment_errors);
+        EXPECT_EQ(drawn.every_sample, Channels(lightingFields().begin(), lightingFields().end()));
+        EXPECT_EQ(Channels(drawn.channels.begin(), drawn.channels.begin() + std::ssize(asked)), asked);
+        const Channels added(drawn.channels.begin() + std::ssize(asked), drawn.channels.end());
+        std::set<Channel> all(drawn.channels.begin(), drawn.channels.end());
+        EXPECT_EQ(all.size(), drawn.channels.size()) << "no channel twice";
+        return std::set<Channel>(added.begin(), added.end());
+    };
+    const auto setOf = [](const auto& channels) {
+        return std::set<Channel>(channels.begin(), channels.end());
+    };
+    const std::set<Channel> ids{Channel::material_id},
+        shadows{Channel::material_id, Channel::depth, Channel::cascade, Channel::page_residency};
+    EXPECT_EQ(helpers({Channel::albedo}, packed), ids);
+    EXPECT_EQ(helpers({Channel::albedo, Channel::material_id}, packed), std::set<Channel>{});
+    EXPECT_EQ(helpers({Channel::lit}, full), ids);
+    EXPECT_EQ(helpers({Channel::lit}, shadowed), shadows);
+    std::set<Channel> fields = setOf(lightingFields());
+    fields.insert(Channel::material_id);
+    std::set<Channel> shaded = fields;
+    fields.erase(Channel::geometric_normal);
+    EXPECT_EQ(helpers({Channel::lit}, packed), fields) << "only shadows read the triangle's normal";
+    shadowed.gbuffer = GBufferEncoding::standard;
+    shaded.insert(shadows.begin(), shadows.end());
+    EXPECT_EQ(helpers({Channel::lit}, shadowed), shaded);
+    EXPECT_EQ(helpers({Channel::depth}, full, true), setOf(footprintChannels()));
+    std::set<Channel> across = setOf(surfacePixelChannels());
+    across.insert(surfaceChannels().begin(), surfaceChannels().end());
+    across.insert(
+        {Channel::texcoords, Channel::lightmapped, Channel::shadow_visibility, Channel::local_visibility});
+    EXPECT_EQ(helpers({}, full, false, true), across);
 }
 
 // FLIP, means and SSIM stay finite for NaN, but no bound on them may let a NaN against a number pass.

@@ -382,6 +382,50 @@ TEST(Footprint, ATolerancesWordsCountItsPixels) {
     EXPECT_EQ(Footprints().closeFraction(), 1);
 }
 
+// Components of 2 t - 1: three of a normal; two of a line, in the plane of a normal with three.
+TEST(Footprint, TexelsOfADirectionTurnIt) {
+    CompareOptions options;
+    options.texels = exactTexels();
+    options.texels->linear_filter.rounding = 1.0 / 255;
+    for (const auto& [mode, radians] :
+         {std::pair{Channel::normals, 2 * std::sqrt(3.0) * 2 / 255},
+          {Channel::anisotropy_direction, 2 * (std::sqrt(2.0) + std::sqrt(3.0)) * 2 / 255}})
+        for (const double fraction : {0.97, 1.03}) {
+            std::vector<Frame> frames = evenFrames();
+            const double angle = std::atan2(0.6, 0.8) + fraction * radians;
+            Image& turned = channelIn(frames[1], mode);
+            for (std::size_t i = 0; i < turned.pixels(); ++i) {
+                turned.pixel(i)[0] = static_cast<float>(std::sin(angle));
+                turned.pixel(i)[2] = static_cast<float>(std::cos(angle));
+            }
+            EXPECT_EQ(evaluated(frames, mode, options).verdict, fraction < 1 ? Verdict::pass : Verdict::fail)
+                << debugMode(mode).name << fraction;
+            EXPECT_EQ(evaluated(frames, mode).verdict, Verdict::fail) << "without texels";
+        }
+}
+
+// Light is granted what decoded surfaces change, where a path without a G-buffer shows it.
+TEST(Footprint, LightIsGrantedItsEncoding) {
+    for (const float lit : {0.5f, 0.6f, 0.7f}) {
+        std::vector<Frame> frames = evenFrames();
+        frames[1].settings.path = Path::deferred;
+        frames[1].settings.gbuffer = GBufferEncoding::standard;
+        frames[0].through_gbuffer[Channel::lit] = Image(side, side, 3, 0.6f);
+        std::ranges::fill(channelIn(frames[1], Channel::lit).data, lit);
+        EXPECT_EQ(evaluated(frames, Channel::lit).verdict, lit < 0.65f ? Verdict::pass : Verdict::fail)
+            << lit;
+    }
+}
+
+// Without materials on one side, no pixel is at an edge.
+TEST(Footprint, WithoutMaterialsEveryPixelIsInside) {
+    std::vector<Frame> frames = evenFrames();
+    for (int y = 0; y < side; ++y) channelIn(frames[0], Channel::material_id).at(7, y) = 4;
+    EXPECT_EQ(evaluated(frames, Channel::depth).footprints->edges, std::uint64_t{3 * side});
+    frames[1].channels.erase(Channel::material_id);
+    EXPECT_EQ(evaluated(frames, Channel::depth).footprints->edges, 0u);
+}
+
 TEST(Footprint, OtherComparisonsHaveNone) {
     std::vector<Frame> frames = evenFrames();
     frames[0].settings.reference_mode = ReferenceMode::surface;

@@ -166,5 +166,47 @@ TEST(Metrics, AFractionIsOfTheCountedPixelsBeyond) {
     EXPECT_EQ(m({FAILING, stepOf(0) / 2}), 1.0);
 }
 
+// Pixels that are left out affect no metric but SSIM, although FLIP's filters would reach them.
+TEST(Metrics, ExcludedPixelsAffectNone) {
+    const Image reference(24, 24, 3, 0.5f);
+    const auto all = [&](float excluded) {
+        Image test = reference;
+        test.at(12, 12, 1) = 0.75f;
+        Coverage covered = everyPixel(test.pixels());
+        for (int y = 0; y < 24; ++y) {
+            covered.covered[test.offset(13, y) / 3] = 0;
+            for (int c = 0; c < 3; ++c) test.at(13, y, c) = excluded;
+        }
+        covered.count -= 24;
+        const Measurement m({ErrorKind::absolute, ChannelKind::color, true, reference, test, &covered});
+        Metrics found;
+        for (const auto& [name, value] : m.all())
+            if (name != "ssim") found[name] = value;  // its windows reach them
+        return found;
+    };
+    const auto some = all(0.5f);
+    EXPECT_EQ(all(0), some);
+    EXPECT_EQ(all(1), some);
+    EXPECT_GT(some.at("flip"), 0);
+}
+
+// SSIM clamps negative values, so where they differ they fail a bound on it.
+TEST(Metrics, WhatSsimCannotSeeFails) {
+    Image a(16, 16, 3, 0.5f), b = a;
+    a.data[0] = -1;
+    b.data[0] = -3;
+    const Coverage covered = everyPixel(a.pixels());
+    for (const auto& [metric, level] : {std::pair{"ssim", Level::fail}, {"mae", Level::pass}}) {
+        Rule rule;
+        rule.fail = {Condition::Kind::bound, {metric, 0}, metric[0] == 's' ? 0.5 : 100, {}};
+        EXPECT_EQ(
+            decide(rule, Measurement({ErrorKind::absolute, ChannelKind::color, false, a, b, &covered})).level,
+            level);
+        EXPECT_EQ(
+            decide(rule, Measurement({ErrorKind::absolute, ChannelKind::color, false, a, a, &covered})).level,
+            Level::pass);
+    }
+}
+
 }  // namespace
 }  // namespace diptych

@@ -6,6 +6,7 @@
 #include "shared/frame/supported_channels.h"
 #include "shared/image/exr.h"
 #include "shared/image/png.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 #include "tests/support/frames.h"
 #include "tests/support/report_builder.h"
@@ -79,6 +80,13 @@ TEST(ComparisonNotes, ComeWithTheirCauseAlone) {
             frames[1].origin.external = is;
         };
     };
+    const auto omitted = [](bool is) {
+        return [=](std::vector<Frame>& frames) {
+            frames[0].requested = frames[1].requested = {Channel::lit};
+            frames[1].origin.omitted_channels = {"mystery"};
+            frames[1].origin.external = is;
+        };
+    };
     const auto assigned = [](Assignment to) {
         return [=](std::vector<Frame>& frames) {
             frames[0].settings.assign = Assignment::tiled;
@@ -102,6 +110,9 @@ TEST(ComparisonNotes, ComeWithTheirCauseAlone) {
          erase({Channel::material_id, Channel::depth}),
          erase({Channel::depth})},
         {{"forward_plus does not have albedo, normals: not compared"}, external(true), external(false)},
+        {{"mystery of forward_plus: not compared, Diptych has no such channel"},
+         omitted(true),
+         omitted(false)},
         {{"deferred and forward_plus have different Settings: --assign tiled and clustered",
           "light_count was not compared: --assign tiled and clustered evaluate different lights"},
          assigned(Assignment::clustered),
@@ -132,6 +143,34 @@ TEST(ComparisonNotes, AnotherRenderersBackgroundIsCounted) {
                                   "background or shifted edges; these pixels are not compared"}
                       : NoteLines{});
     }
+}
+
+// Background pixels of another renderer become ours in every channel of ours; it gets our ids and depths.
+TEST(ComparisonNotes, AnotherRenderersBackgroundBecomesOurs) {
+    Frame ours = flatFrame(Path::deferred, 3, 1, 0.5f), theirs = flatFrame(Path::forward_plus, 3, 1, 0.25f);
+    ours.channels[Channel::material_id].data = {-1, 0, -1};
+    ours.channels[Channel::albedo] = Image(3, 1, 3, 0.75f);
+    ours.channels[Channel::depth] = Image(3, 1, 1, 2);
+    theirs.channels[Channel::albedo] = Image(3, 1, 3, 1);
+    theirs.channels[Channel::metallic] = Image(3, 1, 1, 1);
+    theirs.channels.erase(Channel::material_id);
+    const Frame before = theirs;
+    showOurBackground(theirs, ours);
+    EXPECT_EQ(theirs.channels.at(Channel::lit).data,
+              (PixelData{0.5f, 0.5f, 0.5f, 0.25f, 0.25f, 0.25f, 0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(theirs.channels.at(Channel::albedo).data,
+              (PixelData{0.75f, 0.75f, 0.75f, 1, 1, 1, 0.75f, 0.75f, 0.75f}));
+    EXPECT_EQ(theirs.channels.at(Channel::metallic).data, (PixelData{1, 1, 1})) << "ours has none";
+    EXPECT_EQ(theirs.channels.at(Channel::material_id).data, ours.channels.at(Channel::material_id).data);
+    EXPECT_EQ(theirs.channels.at(Channel::depth).data, ours.channels.at(Channel::depth).data);
+    EXPECT_EQ(theirs.requested, (std::vector<Channel>{Channel::lit, Channel::albedo, Channel::metallic}));
+    // Nothing changes where our background is unknown, or at another size.
+    ours.channels.erase(Channel::material_id);
+    ours.channels.erase(Channel::depth);
+    theirs = before;
+    showOurBackground(theirs, ours);
+    EXPECT_EQ(theirs.channels.at(Channel::lit).data, before.channels.at(Channel::lit).data);
+    EXPECT_TRUE(theirs.requested.empty());
 }
 
 TEST(DiffNotes, ComeWithTheirCauseAlone) {
@@ -170,6 +209,93 @@ TEST(DiffNotes, ComeWithTheirCauseAlone) {
     EXPECT_EQ(notes("half.exr", "a.png"),
               (NoteLines{decoded, "lit: float in the reference, 8 bit in the test"}));
     EXPECT_EQ(notes("a.png", "a.png"), NoteLines{});
+}
+
+// A colour at an alpha of 0 in both files is invisible.
+TEST(DiffNotes, AHiddenDifferenceIsNamed) {
+    const std::filesystem::path here = folder();
+    for (const std::string layer : {"", "glass."})
+        for (const float alpha : {0.0f, 1.0f}) {
+            for (const char* file : {"a.exr", "b.exr"}) {
+                Image color(24, 24, 3, 0.5f), cover(24, 24, 1, 1.0f);
+                if (file[0] == 'b') color.at(3, 5, 1) = 0.25f, color.at(7, 5, 2) = 0.25f;
+                cover.at(7, 5) = 0;
+                cover.at(3, 5) = file[0] == 'a' ? alpha : 0.0f;
+                writeExr(here / file,
+                         {{{layer + "R", layer + "G", layer + "B"}, &color}, {{layer + "A"}, &cover}});
+            }
+            ImageDiffOptions options;
+            options.channels = {layer.empty() ? "lit" : "glass"};
+            for (const bool alone : {true, false}) {
+                if (!alone) options.channels.clear();
+                const ImageDiff diff =
+                    diffImages((here / "a.exr").string(), (here / "b.exr").string(), options);
+                const std::string name = layer.empty() ? "A" : "glass.A",
+                                  said = "; " + name +
+                                         " is 0 in both wherever they differ, so the difference is invisible";
+                const ImageChannelDiff& color = *diff.channels.front();
+                EXPECT_EQ(color.decision.reason.find(said) != std::string::npos, alpha == 0 && !alone)
+                    << color.pair.name << ": " << color.decision.reason;
+                EXPECT_EQ(color.decision.level, Level::fail);
+                EXPECT_EQ(color.worst_y, 5);
+            }
+        }
+}
+
+TEST(DiffNotes, BlackMeansBothImages) {
+    const std::filesystem::path here = folder();
+    const Image none(4, 3, 3);
+    Image lit = none;
+    lit.at(2, 1, 2) = 1;
+    writeExr(here / "a.exr", {{{"R", "G", "B"}, &none}});
+    writeExr(here / "b.exr", {{{"R", "G", "B"}, &lit}});
+    const auto emptiness = [&](const char* a, const char* b) {
+        ImageDiffOptions options;
+        return diffImages((here / a).string(), (here / b).string(), options).emptiness;
+    };
+    EXPECT_NE(emptiness("a.exr", "a.exr"), "");
+    EXPECT_EQ(emptiness("a.exr", "b.exr"), "");
+    EXPECT_EQ(emptiness("b.exr", "a.exr"), "");
+    ImageDiffOptions options;
+    options.selection.crop = Crop{0, 0, 2, 3};
+    const ImageDiff part = diffImages((here / "b.exr").string(), (here / "a.exr").string(), options);
+    EXPECT_TRUE(part.passed());
+    EXPECT_NE(part.emptiness, "") << "in the compared part";
+    EXPECT_EQ(part.notes, NoteLines{"6 of 12 pixels are compared; options exclude the others"});
+}
+
+// A metric that a channel lacks demands equality there.
+TEST(DiffNotes, ChannelsWithoutTheMetricAreNamed) {
+    const std::filesystem::path here = folder();
+    const Image color(24, 24, 3, 0.5f), one(24, 24, 1, 0.5f);
+    Image other = one;
+    other.at(3, 5) = 0.25f;
+    writeExr(here / "a.exr", {{{"R", "G", "B"}, &color}, {{"x.Y"}, &one}, {{"y.Y"}, &one}});
+    writeExr(here / "b.exr", {{{"R", "G", "B"}, &color}, {{"x.Y"}, &one}, {{"y.Y"}, &other}});
+    ImageDiffOptions options;
+    options.metric_requested = options.tolerance_requested = true;
+    options.tolerance = 1;
+    const ImageDiff diff = diffImages((here / "a.exr").string(), (here / "b.exr").string(), options);
+    EXPECT_EQ(diff.notes, NoteLines{"flip is not defined for x, y: only equal values pass"});
+    std::vector<std::string> reasons;
+    for (const auto& channel : diff.channels) reasons.push_back(channel->decision.reason);
+    EXPECT_EQ(reasons, (NoteLines{"", "",
+                                  "max 0.25 exceeds 0, at 0.174 % of the pixels; judge it by a rule, by a "
+                                  "--metric defined for it, or leave it out with --channels"}));
+    options.channels = {"x"};
+    EXPECT_EQ(faultOf([&] { diffImages((here / "a.exr").string(), (here / "b.exr").string(), options); }),
+              "--metric flip: not defined for any channel of these images: x");
+    for (const auto& [name, metric] : {std::pair{"relative", "relative_max"},
+                                       {"angular", "angle_max"},
+                                       {"angle", "angle_max"},
+                                       {"ulp", "ulp_max"},
+                                       {"relmse", "relative_mse"},
+                                       {"psnr", "psnr"}})
+        EXPECT_EQ(metricOfOption(name), metric);
+    EXPECT_TRUE(
+        faultOf([&] {
+            metricOfOption("maxx");
+        }).starts_with("--metric maxx: unknown metric; use one of relative, angular, ulp, max, mean, "));
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Ranges of what textures may show at a pixel, for the tolerance of another device.
 #include "compare/verdict/texel_ranges.h"
+#include "compare/verdict/neighbours.h"
 #include "compare/verdict/surface_pixels.h"
 #include "shared/contract/debug_mode.h"
 #include "shared/material/texture_probe.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -151,6 +153,55 @@ TEST(TexelRanges, OfSpecularGlossinessReachAlbedoAndRoughness) {
          {std::pair{Channel::dielectric_f0, 0.5}, {Channel::albedo, 0.25}, {Channel::roughness, 0.75}})
         EXPECT_NEAR(ranges.at(channel).at(texel_side / 2, texel_side / 2, 0), range, 1e-6)
             << debugMode(channel).name;
+}
+
+// Directions have components 2 t - 1: degrees for three of a normal, or two of a line.
+TEST(TexelRanges, OfDirectionsAreAngles) {
+    const double three = 2 * std::sqrt(3.0) * degreesPerRadian * 0.8,
+                 two = 2 * std::sqrt(2.0) * degreesPerRadian * 0.8;
+    for (const float anisotropy : {0.0f, 0.5f}) {
+        const auto bumps = layerRanges(51, [=](Material& m) {
+            m.normal_texture.texture = 0;
+            m.anisotropy = anisotropy;
+        });
+        EXPECT_NEAR(rangeIn(bumps, Channel::normals), three, 1e-4);
+        EXPECT_NEAR(rangeIn(bumps, Channel::anisotropy_direction), anisotropy > 0 ? three : 0, 1e-4)
+            << "perpendicular to the normal";
+    }
+    const auto steep = layerRanges(51, [](Material& m) {
+        m.normal_texture.texture = 0;
+        m.normal_scale = -2;
+    });
+    EXPECT_NEAR(rangeIn(steep, Channel::normals), 2 * three, 1e-4);
+    const auto brushed = layerRanges(51, [](Material& m) {
+        m.anisotropy = 0.5f;
+        m.anisotropy_texture.texture = 0;
+    });
+    EXPECT_NEAR(rangeIn(brushed, Channel::anisotropy), 0.5 * 0.8, 1e-6);
+    EXPECT_NEAR(rangeIn(brushed, Channel::anisotropy_direction), two, 1e-4);
+    const auto metal = layerRanges(51, [](Material& m) {
+        m.metallic = 0.5f;
+        m.roughness = 0.25f;
+        m.metallic_roughness_texture.texture = 0;
+    });
+    EXPECT_NEAR(rangeIn(metal, Channel::metallic), 0.5 * 0.8, 1e-6);
+    EXPECT_NEAR(rangeIn(metal, Channel::roughness), 0.25 * 0.8, 1e-6);
+}
+
+// Pixel 16,16 shows texel 16,16; an offset of a quarter of the texture is one of 16 texels.
+TEST(TexelRanges, TexelsAreSeenWhereTheSlotPutsThem) {
+    for (const int x : {16, 32})
+        for (const int y : {16, 32}) {
+            TexturedPlane plane(1, [=](int u, int v) { return u == x && v == y ? 0 : 255; });
+            TextureSlot& slot = plane.scene.materials[0].base_color_texture;
+            for (const int u : {0, 1})
+                for (const int v : {0, 1}) {
+                    slot.u.z = 0.25 * u;
+                    slot.v.z = 0.25 * v;
+                    EXPECT_EQ(plane.range() > 0, x == 16 + 16 * u && y == 16 + 16 * v)
+                        << x << " " << y << u << v;
+                }
+        }
 }
 
 TEST(TexelRanges, OfMagnifiedTexturesAreTheirWeightsSteps) {

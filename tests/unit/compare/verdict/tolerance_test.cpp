@@ -501,6 +501,9 @@ TEST(Tolerance, LitThatTheEncodingDoesNotExplainIsFound) {
     EXPECT_EQ(unexplainedPixels(debugMode(Channel::lit), p.pair()), 0u) << "16 ULP on a GPU";
     p.deferred.channels[Channel::lit].data[1] = 1.25f * (1 + 20 * 0x1p-23f);
     EXPECT_EQ(unexplainedPixels(debugMode(Channel::lit), p.pair()), 1u);
+    EXPECT_EQ(encodingExplains(debugMode(Channel::lit), p.pair(), 0), false);
+    EXPECT_EQ(encodingExplains(debugMode(Channel::lit), litPair().pair(), 0), true);
+    EXPECT_EQ(encodingExplains(debugMode(Channel::albedo), p.pair(), 0), std::nullopt);
 }
 
 TEST(Tolerance, LitWithoutTheEncodedImageIsNotExcused) {
