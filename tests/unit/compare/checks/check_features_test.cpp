@@ -67,6 +67,10 @@ TEST(CheckFeatures, TextureTransformsAreToldByTheFilesNumbers) {
     EXPECT_EQ(told(), "Base colour: rotated 30\u00b0" + tail);
     m.base_color_texture = transformed(0.5, 0, -30, 2, 3);
     EXPECT_EQ(told(), "Base colour: offset 0.5 0, rotated -30\u00b0, scaled 2 \u00d7 3" + tail);
+    m.base_color_texture = transformed(0, 0, 60, 2, 3);
+    EXPECT_EQ(told(), "Base colour: rotated 60\u00b0, scaled 2 \u00d7 3" + tail);
+    m.base_color_texture = transformed(0, -0.5, 60, 2, -3);
+    EXPECT_EQ(told(), "Base colour: offset 0 -0.5, rotated 60\u00b0, scaled 2 \u00d7 -3" + tail);
     m.base_color_texture = transformed(0, 0, 0, -1, 1);
     EXPECT_EQ(told(), "Base colour: rotated 180\u00b0, scaled 1 \u00d7 -1" + tail) << "which is the same";
     m.base_color_texture = m.normal_texture = transformed(0, 0, 0, 2, 2);
@@ -91,6 +95,19 @@ TEST(CheckFeatures, SamplersAreToldWhereTheyShow) {
     slot.v.y = 2;
     EXPECT_EQ(what(scene, "samplers"),
               "Base colour: stripes of its edge texels beyond its edge along u and v.");
+    // From 0.5 to 0.75, then up to or down from an edge, in either direction.
+    const auto seen = [&](double u, double v) {
+        slot = {0, 0, {0.25, 0, u}, {0, 0.25, v}};
+        return what(scene, "samplers");
+    };
+    const std::string along = "Base colour: stripes of its edge texels beyond its edge along ";
+    EXPECT_EQ(seen(0.5, 0.5), "");
+    EXPECT_EQ(seen(0.75, 0), "") << "up to both edges";
+    EXPECT_EQ(seen(-0.125, 0.5), along + "u.");
+    EXPECT_EQ(seen(0.875, 0.5), along + "u.");
+    EXPECT_EQ(seen(0.5, -0.125), along + "v.");
+    EXPECT_EQ(seen(0.5, 0.875), along + "v.");
+    slot = {0, 0, {1, 0, 2}, {0, 2, 0}};
     sampler.wrap_s = Wrap::repeat;
     sampler.wrap_t = Wrap::mirrored_repeat;
     sampler.magnify_linear = false;
@@ -193,7 +210,8 @@ TEST(CheckFeatures, MasksThatCutNothingOutSaySo) {
     EXPECT_TRUE(cuts());
     m.alpha_cutoff = 0.4f;
     EXPECT_FALSE(cuts());
-    scene.meshes[0].primitives[0].colors.assign(4, glm::vec4(1, 1, 1, 0.5f));
+    scene.meshes[0].primitives[0].colors.assign(4, glm::vec4(1, 1, 0, 1));
+    scene.meshes[0].primitives[0].colors[2] = glm::vec4(1, 1, 1, 0.5f);
     EXPECT_TRUE(cuts());
 }
 

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,18 @@ TEST(LightsOfChange, AFactorIsFoundByWhereTheLightIs) {
         const auto parts = lightsOfChange(change, lights, LightChange::factor);
         EXPECT_GT(fractionOf(parts, light, change), 0.999) << light;
     }
+}
+
+// One factor for all colours is tried first; a factor of each colour explains what it leaves.
+TEST(LightsOfChange, AFactorMayBeOfEachColour) {
+    const std::vector<Image> lights{lightAround(3, 3, 1, 0.5, 0.25), lightAround(3, 3, 0.25, 0.5, 1)};
+    const Image dimmed = times(lights[0], [](int) { return -0.3; });
+    EXPECT_GT(fractionOf(lightsOfChange(dimmed, lights, LightChange::factor), 0, dimmed), 0.999)
+        << "colours of the other would explain it, too";
+    const std::vector<Image> apart = threeLights();
+    Image tinted = apart[1];
+    for (std::size_t i = 0; i < tinted.data.size(); ++i) tinted.data[i] *= i % 3 == 2 ? 0.5f : -0.25f;
+    EXPECT_GT(fractionOf(lightsOfChange(tinted, apart, LightChange::factor), 1, tinted), 0.999);
 }
 
 TEST(LightsOfChange, ALightThatIsDroppedIsTheOneThatIsMissing) {
@@ -123,11 +137,37 @@ TEST(ExposureBetween, IsTheFactorThatHalfOfTheImageHas) {
     EXPECT_FALSE(commonFactor(twice, Image(width, height, 3)).has_value()) << "black says nothing";
 }
 
+// Components by their ratio to those expected, in any order. Of those expected, components under a thousandth
+// of their finite mean do not count.
+TEST(ExposureBetween, HalfOfTheBrightComponentsHaveTheFactor) {
+    const auto factorOf = [](const std::vector<std::pair<float, float>>& expected_and_ratio) {
+        Image lit(static_cast<int>(expected_and_ratio.size()) / 3, 1, 3), expected = lit;
+        for (std::size_t i = 0; i < expected_and_ratio.size(); ++i) {
+            expected.data[i] = expected_and_ratio[i].first;
+            lit.data[i] = expected_and_ratio[i].first * expected_and_ratio[i].second;
+        }
+        return commonFactor(lit, expected);
+    };
+    EXPECT_EQ(factorOf({{1, 2}, {1, 0.1f}, {1, 2}, {1, 0.2f}, {1, 2}, {1, 0.3f}}), 2);
+    EXPECT_EQ(factorOf({{1, 2}, {1, 0.1f}, {1, 2}, {1, 0.2f}, {1, 9}, {1, 1.5f}}), std::nullopt);
+    // A tenth of a percent is the same.
+    EXPECT_TRUE(factorOf({{1, 2}, {1, 1.9981f}, {1, 2.0019f}}).has_value());
+    EXPECT_FALSE(factorOf({{1, 2}, {1, 1.9979f}, {1, 2.0021f}}).has_value());
+    for (const auto& [dark, factor] : {std::pair{0.0004f, 2.0}, {0.0005f, 9.0}}) {
+        std::vector<std::pair<float, float>> rows(12, {dark, 9.0f});
+        std::fill_n(rows.begin(), 3, std::pair{NAN, 1.0f});
+        std::fill_n(rows.begin() + 5, 4, std::pair{1.0f, 2.0f});  // the mean is 0.444
+        EXPECT_NEAR(factorOf(rows).value_or(0), factor, 1e-5) << dark;
+    }
+}
+
 TEST(ExposureBetween, IsOfBothSides) {
     EXPECT_NEAR(exposureBetween(0.5, 1).value(), 2, 1e-12);
     EXPECT_FALSE(exposureBetween(3.0, 3.0).has_value());
     EXPECT_FALSE(exposureBetween({}, 2.0).has_value());
-    EXPECT_FALSE(exposureBetween(1.0, 1.001).has_value()) << "halves round by as much";
+    for (const double factor : {0.9979, 1.0021}) EXPECT_EQ(exposureBetween(1.0, factor), factor);
+    for (const double factor : {0.9981, 1.001, 1.0019})
+        EXPECT_FALSE(exposureBetween(1.0, factor).has_value()) << "halves round by as much";
 }
 
 }  // namespace
