@@ -204,6 +204,8 @@ TEST(VisualChecks, LongNamesAreCutBetweenCharacters) {
     std::string expected = "x";
     for (int i = 0; i < 29; ++i) expected += "\u00e9";
     EXPECT_EQ(name, expected + "...");
+    scene.nodes[0].name = std::string(60, 'n');
+    EXPECT_EQ(checksIn(scene, viewOf()).at(0).checks.at(0).name, scene.nodes[0].name);
 }
 
 }  // namespace diptych

@@ -95,8 +95,8 @@ TEST(ExplanationImages, ContributionsAreOnOneScaleAndNegativeOnesBlue) {
         EXPECT_TRUE(names.insert(map.name).second) << map.name;
         EXPECT_EQ(map.image.width, 3);
     }
-    EXPECT_TRUE(names.contains("share-1.haze.png"));
-    EXPECT_TRUE(names.contains("share-3.cause-2.png"));
+    EXPECT_EQ(names, (std::set<std::string>{"difference.png", "share-1.haze.png", "share-2.cause-1.png",
+                                            "share-3.cause-2.png", "unexplained.png"}));
     const Image8 last = contributionImage(e.causes.back().map, 4);
     EXPECT_GT(last.data[5], last.data[3] + 50);
     EXPECT_GT(last.data[5], last.data[4] + 20);
@@ -214,10 +214,8 @@ TEST(ExplanationPage, ATableSaysAllOfACause) {
                 "unexplained,25.00 %,25.00 %,,,,,,remains with every cause swapped,no channel and no Setting "
                 "describes it\r\n");
         }
-    EXPECT_EQ(
-        toJson(detailed(), of),
-        nlohmann::ordered_json::parse(
-            R"(
+    EXPECT_EQ(toJson(detailed(), of), nlohmann::ordered_json::parse(
+                                          R"(
 {"schema":1,"software":"diptych","scene":"a.glb","baseline":"deferred","test":"forward_plus --haze on",
 "distance":2.0,"flip":0.5,"causes":[{"name":"--haze","share":0.75,"interval":0.0625,
 "where":[2,1],"shows":"on instead of <off> & so","alone":0.5,"last":0.375,"dominates":0.25,
@@ -262,7 +260,7 @@ TEST(ExplanationPage, EveryPictureHasItsCaption) {
     EXPECT_EQ(picturesOf(Explanation()), (Sources{"lit.baseline.png", "lit.test.png"}));
     const std::string page = explanationHtml(e, of);
     for (const char* part :
-         {"</i>--haze 75.00 %", "</i>cause 1 -25.00 %", "unexplained 25.00 %",
+         {"<h2>The pictures</h2>", "</i>--haze 75.00 %", "</i>cause 1 -25.00 %", "unexplained 25.00 %",
           "black 0, pale yellow 4 W/(sr m^2), cyan beyond", "3\u00d72, on a device", "#56b4e9", "#e69f00"})
         EXPECT_NE(page.find(part), std::string::npos) << part << page;
     e.unexplained = 0;

@@ -108,7 +108,8 @@ PixelBreakdown wholeBreakdown() {
     b.camera = "main";
     b.x = 3, b.y = 4;
     b.names = {"deferred", "forward_plus"};
-    for (Settings& settings : b.settings) settings.size = {20, 12};
+    b.settings[0].size = {20, 12};
+    b.settings[1].size = {21, 13};
     b.material = 1;
     b.material_name = "brass";
     b.position = {1.5, -2, 3.25};
@@ -268,16 +269,23 @@ TEST(PixelBreakdown, EachReasonHasItsLine) {
     EXPECT_EQ(inText(blocksOf(dark)).find("depth"), std::string::npos);
 }
 
+TEST(PixelBreakdown, TermsHaveAsManyDigitsAsTheyTake) {
+    PixelBreakdown b = wholeBreakdown();
+    b.terms[3].values[1] = glm::dvec3(3.00000003);
+    b.terms.back().values[1] = glm::dvec3(0.250000003);
+    const std::string text = inText(blocksOf(b));
+    EXPECT_NE(text.find("3.00000003 3.00000003 3.00000003"), std::string::npos) << text;
+    EXPECT_EQ(text.find("0.250000003"), std::string::npos) << "of a difference";
+}
+
 TEST(PixelBreakdown, JsonHasAllOfIt) {
     PixelBreakdown b = wholeBreakdown();
     nlohmann::ordered_json json = toJson(b);
     EXPECT_EQ(json["settings"], (nlohmann::ordered_json{jsonOf(b.settings[0]), jsonOf(b.settings[1])}));
     EXPECT_EQ(json["summary"], firstDifference(b));
     for (const char* told : {"settings", "summary"}) json.erase(told);
-    EXPECT_EQ(
-        json,
-        nlohmann::ordered_json::parse(
-            R"(
+    EXPECT_EQ(json, nlohmann::ordered_json::parse(
+                        R"(
 {"schema":1,"scene":"lamps.glb","camera":"main","pixel":[3,4],"size":[20,12],"baseline":"deferred",
 "test":"forward_plus","background":false,"blended":false,"material":{"id":1,"name":"brass"},
 "position":[1.5,-2.0,3.25],"steps":[{"number":8,"name":"material_id","metric":"exact",

@@ -327,9 +327,10 @@ TEST(Layers, OneComponentAgainstColoursIsSaid) {
 
 TEST(Selection, MaskIdsAndCrop) {
     const std::filesystem::path files = folder();
-    Image8 mask{3, 2, 3, std::vector<std::uint8_t>(18, 0)};
-    for (const std::size_t i : {0u, 4u}) mask.data[3 * i + 1] = 200;
-    mask.data[3 * 5] = 120;  // below one half
+    Image8 mask{3, 2, 4, std::vector<std::uint8_t>(24, 0)};
+    for (std::size_t i = 0; i < 6; ++i) mask.data[4 * i + 3] = 255;  // alpha is no brightness
+    for (const std::size_t i : {0u, 4u}) mask.data[4 * i + 2] = 200;
+    mask.data[4 * 5] = 120;  // below one half
     writePng(files / "mask.png", mask);
     Image ids(3, 2, 1);
     for (int i = 0; i < 6; ++i) ids.data[static_cast<std::size_t>(i)] = static_cast<float>(i);

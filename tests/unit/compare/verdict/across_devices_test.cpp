@@ -143,7 +143,9 @@ TEST_F(AcrossDevicesPair, APixelAwayFromAnyEdgeMayNot) {
     // them.
     for (int y = 5; y < 10; ++y)
         for (int x = 5; x < 10; ++x) showAnother(x, y, 1);
-    EXPECT_NE(faults().find(" not beside an edge"), std::string::npos);
+    EXPECT_TRUE(faults().starts_with(
+        "the other device shows another triangle at 9 pixels not beside an edge, the first at 6,6; "))
+        << faults();
 }
 
 TEST_F(AcrossDevicesPair, AWholeEdgeAPixelElsewhereIsTooMuch) {
@@ -594,6 +596,16 @@ TEST_F(AcrossDevicesPair, AGridKnowsWhichNeighboursAreOfOneSurface) {
     EXPECT_EQ(grid.narrow[index(5, 9)], 0);
     EXPECT_EQ(grid.narrow[index(20, 9)], 1);
     EXPECT_EQ(grid.steeper[index(5, 9)], 1) << "a plane is as steep as it looks";
+    // The turned triangle's own slope over what its neighbours show; a pixel is z tan(30 degrees) / 16.
+    const Image& depths = at(0, Channel::depth);
+    const double z = double{depths.at(20, 9)}, pixel = z * std::tan(30 * 3.14159265358979 / 180) / 16;
+    const float* const p = at(0, Channel::position).pixel(index(20, 9));
+    const double facing = std::abs(0.8 * double{p[1]} + 0.6 * double{p[2]}) / z, along = 0.8 * pixel,
+                 slope = along / (facing - along / 16 / z);
+    double shown = 0;
+    for (const auto& [x, y] : {std::pair{19, 9}, {21, 9}, {20, 8}, {20, 10}})
+        shown = std::max(shown, std::abs(double{depths.at(x, y)} - z));
+    EXPECT_NEAR(grid.steeper[index(20, 9)], slope / shown, 1e-4);
     EXPECT_NE(grid.material[index(across_side / 2, 9)], all) << "beside another material";
     EXPECT_EQ(grid.material[index(across_side / 2, 9)], grid.surface[index(across_side / 2, 9)]);
 }

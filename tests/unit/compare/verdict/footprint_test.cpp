@@ -77,6 +77,7 @@ TEST(Footprint, EvenPixelsAreHeldTightly) {
     EXPECT_EQ(even.footprints->smooth, std::uint64_t{side * side});
     EXPECT_EQ(even.footprints->detailed, 0u);
     EXPECT_EQ(even.verdict, Verdict::pass);
+    EXPECT_NEAR(even.tolerance.max, 1e-4, 1e-9);
     for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 0.9e-4f;
     EXPECT_EQ(evaluated(frames, Channel::roughness).verdict, Verdict::pass);
     for (float& v : channelIn(frames[1], Channel::roughness).data) v = 0.5f + 1.2e-4f;

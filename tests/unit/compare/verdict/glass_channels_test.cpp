@@ -76,6 +76,9 @@ TEST(GlassChannels, TexelsHave8Bits) {
         const FramePair pair{p.reference, p.path, p.needs, p.covered};
         EXPECT_EQ(BlendedPixels(pair).allowed(mode, glassSide - 1), allowed) << mode.name;
         EXPECT_EQ(BlendedPixels(pair).allowed(mode, 0), 0) << mode.name << ": no glass";
+        p.needs.textures = 0;
+        EXPECT_EQ(BlendedPixels(pair).allowed(mode, glassSide - 1), 0) << mode.name << ": no texture";
+        p.needs.textures = 1;
     }
 }
 

@@ -124,6 +124,7 @@ TEST(LayerTolerance, AThicknessBelowTheLastExponentIsStillBound) {
     p.needs.surface_layers = gpu::LAYER_IRIDESCENCE;
     p.decoded(Channel::iridescence_thickness, 0x1p-16f);
     EXPECT_NEAR(p.of(Channel::iridescence_thickness).max, 0x1p-25 / (1e-3 * 0x1p-16), 1e-6);
+    EXPECT_EQ(p.of(Channel::iridescence_thickness).because, "half of a half's smallest step, 2^-25");
 }
 
 TEST(LayerTolerance, AnAbsentLayerIsNotStored) {

@@ -282,6 +282,8 @@ TEST(DiffNotes, ChannelsWithoutTheMetricAreNamed) {
     EXPECT_EQ(reasons, (NoteLines{"", "",
                                   "max 0.25 exceeds 0, at 0.174 % of the pixels; judge it by a rule, by a "
                                   "--metric defined for it, or leave it out with --channels"}));
+    EXPECT_EQ(diff.channels.back()->worst_x, 3);
+    EXPECT_EQ(diff.channels.back()->worst_y, 5);
     options.channels = {"x"};
     EXPECT_EQ(faultOf([&] { diffImages((here / "a.exr").string(), (here / "b.exr").string(), options); }),
               "--metric flip: not defined for any channel of these images: x");

@@ -252,6 +252,8 @@ TEST(Tolerance, EmissionDarkerThanTheLastExponentIsStillBound) {
     p.needs.min_emission = p.needs.max_emission = 1;
     p.deferred.channels[Channel::emission] = Image(1, 1, 3, 0x1p-20f);
     EXPECT_NEAR(p.of(Channel::emission).max, 0x1p-25 / (1e-3 * 0x1p-20), 1e-6);
+    EXPECT_EQ(p.of(Channel::emission).because,
+              "half of 9.9.9.e5's smallest step, 2^-25, at the darkest pixel");
 }
 
 TEST(Tolerance, WhatIsNotPackedMustBeEqual) {
