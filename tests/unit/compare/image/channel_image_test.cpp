@@ -6,9 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
+#include <string_view>
 #include <tuple>
 
 namespace diptych {
@@ -23,6 +27,17 @@ TEST(ChannelImage, HighlightsHoldTheAutomaticExposure) {
     all.covered.assign(20, true);
     EXPECT_NEAR(exposureFor({}, &lit, all).factor, 0.7 / 2, 1e-9);
     EXPECT_TRUE(exposureFor({}, &lit, all).tonemap);
+}
+
+// Black surfaces count with a thousandth of the mean; negative light and uncovered pixels do not count.
+TEST(ChannelImage, TheLogAverageIsThatOfCoveredLight) {
+    Image lit(4, 1, 3, 0.0f);
+    for (int c = 0; c < 3; ++c) lit.at(1, 0, c) = 0.5f, lit.at(2, 0, c) = -1, lit.at(3, 0, c) = 7;
+    Coverage three;
+    three.covered = {true, true, true, false};
+    EXPECT_NEAR(exposureFor({}, &lit, three).factor, 0.18 / std::sqrt(0.5 * 0.001 * 0.25), 1e-6);
+    three.covered = {true, false, true, false};
+    EXPECT_EQ(exposureFor({}, &lit, three).factor, 1) << "nothing is lit";
 }
 
 // Three pixels of a hundred do not set the exposure: they are above the 95th percentile.
@@ -52,6 +67,27 @@ TEST(ChannelImage, FilmsAreShownOverTheirRange) {
         const ImageScale scale = scaleFor(mode, {}, frames);
         EXPECT_EQ(scale.text, words);
         EXPECT_EQ(channelImage(mode, frame, scale).data.at(3 * (2 * 4 + 1)), 255);
+    }
+}
+
+// What has no range of its own is shown as it is.
+TEST(ChannelImage, OnlyLengthsCountsAndIndicesAreNormalised) {
+    const std::set<std::string_view> normalised{"depth",
+                                                "position",
+                                                "shaded_samples",
+                                                "light_count",
+                                                "iridescence_ior",
+                                                "dispersion",
+                                                "iridescence_thickness",
+                                                "transmission_thickness",
+                                                "attenuation_distance"};
+    Frame frame = bothFrames()[0];
+    for (auto& [channel, image] : frame.channels) std::ranges::fill(image.data, 10.0f);
+    const Frame* frames[] = {&frame};
+    for (const auto& [channel, image] : frame.channels) {
+        const DebugMode& mode = debugMode(channel);
+        const std::string text = scaleFor(mode, {}, frames).text;
+        EXPECT_EQ(text.find("10") != text.npos, normalised.contains(mode.name)) << mode.name << ": " << text;
     }
 }
 
@@ -94,6 +130,11 @@ TEST(ChannelImage, BackgroundAndExposure) {
     EXPECT_EQ(image.data[0], 0);
     EXPECT_EQ(image.data[2], std::lround(255 * srgbFromLinear(0.36)))
         << "background (0, 0, 1) at exposure 0.36";
+    const Image8 mapped = channelImage(lit, frame, scaleFor(lit, {0.36, true, ""}, frames));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_EQ(mapped.data.at(static_cast<std::size_t>(c)),
+                  std::lround(255 * srgbFromLinear(pbrNeutral({0, 0, 0.36f})[static_cast<std::size_t>(c)])))
+            << "the tone curve";
     choice.ev100 = 0;
     EXPECT_DOUBLE_EQ(exposureFor(choice, nullptr, {}).factor, 1 / 1.2);
     choice.exposure = 3;
@@ -107,12 +148,27 @@ TEST(ChannelImage, SrgbByTheStandard) {
     EXPECT_NEAR(srgbFromLinear(0.2158605), 0.5019608, 1e-6) << "code 128";
 }
 
-// Below its shoulder the tone curve only subtracts the Fresnel offset of 0.04. It is monotonic and stays
+// The Khronos PBR Neutral tone mapper as it is specified, in double precision. It is monotonic and stays
 // within [0, 1].
 TEST(ChannelImage, PbrNeutral) {
-    const auto mid = pbrNeutral({0.5f, 0.4f, 0.3f});
-    EXPECT_FLOAT_EQ(mid[0], 0.46f);
-    EXPECT_FLOAT_EQ(mid[2], 0.26f);
+    for (const std::array<float, 3> rgb : {std::array{0.5f, 0.4f, 0.3f},
+                                           {0.05f, 0.02f, 0.3f},
+                                           {3.0f, 0.5f, 0.07f},
+                                           {0.85f, 0.9f, 0.2f},
+                                           {9.0f, 8.0f, 7.0f},
+                                           {0.0f, 0.0f, 0.8f}}) {
+        const double x = std::min({rgb[0], rgb[1], rgb[2]}), offset = x < 0.08 ? x - 6.25 * x * x : 0.04,
+                     peak = std::max({rgb[0], rgb[1], rgb[2]}) - offset;
+        for (std::size_t c = 0; c < 3; ++c) {
+            double expected = rgb[c] - offset;
+            if (peak >= 0.76) {
+                const double compressed = 1 - 0.24 * 0.24 / (peak + 0.24 - 0.76),
+                             g = 1 - 1 / (0.15 * (peak - compressed) + 1);
+                expected = (1 - g) * expected * compressed / peak + g * compressed;
+            }
+            EXPECT_NEAR(pbrNeutral(rgb)[c], expected, 2e-6) << rgb[0] << " " << c;
+        }
+    }
     float last = -1;
     for (float x = 0; x < 1000; x = x * 1.1f + 0.01f) {
         const float y = pbrNeutral({x, x, x})[0];
@@ -163,6 +219,8 @@ TEST(ChannelImage, HalfSizeAverages) {
     EXPECT_EQ(halfSize(image).data, (std::vector<std::uint8_t>{6, 6, 6}));
     EXPECT_EQ(halfSize({4, 2, 1, {0, 4, 100, 200, 8, 12, 60, 40}}).data, (std::vector<std::uint8_t>{6, 100}));
     EXPECT_EQ(halfSize({1, 1, 3, {9, 8, 7}}).data, (std::vector<std::uint8_t>{9, 8, 7}));
+    EXPECT_EQ(halfSize({4, 2, 1, {0, 0, 0, 0, 1, 1, 1, 0}}).data, (std::vector<std::uint8_t>{1, 0}))
+        << "a half is rounded up";
 }
 
 }  // namespace

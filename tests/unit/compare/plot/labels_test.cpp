@@ -38,8 +38,9 @@ TEST(PlotLabels, OfManyPointsAtOnePlaceNoneCoversAnother) {
 TEST(PlotLabels, StandsAboveOnTheRightUnlessAMarkIsThere) {
     const PlotBox area{0, 0, 400, 300};
     const PlotBox free = positionLabels({{200, 150, 24, 18}}, {}, area).front();
-    EXPECT_GT(free.left, 200);
-    EXPECT_LT(free.bottom, 150);
+    for (const auto& [end, expected] :
+         {std::pair{free.left, 207.0}, {free.top, 125.0}, {free.right, 231.0}, {free.bottom, 143.0}})
+        EXPECT_DOUBLE_EQ(end, expected) << "7 from the point";
     const PlotBox moved = positionLabels({{200, 150, 24, 18}}, {free}, area).front();
     EXPECT_FALSE(meet(moved, free));
     // With marks everywhere, a label is still placed.

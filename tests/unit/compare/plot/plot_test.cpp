@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <regex>
 #include <sstream>
 
@@ -104,6 +105,23 @@ TEST(PlotAxis, ADecadeHasTicksAtOneTwoAndFive) {
     EXPECT_EQ(named({1, 5}), (std::vector<double>{1, 2, 5}));
 }
 
+// Even ticks have a step of 1, 2, 5 or 10 times a power of ten: the least of at least a sixth of the axis.
+TEST(PlotAxis, ALinearAxisHasAboutSixEvenTicks) {
+    for (const auto& [end, step] :
+         {std::pair{6.0, 1.0}, {6.1, 2.0}, {12.0, 2.0}, {12.1, 5.0}, {30.0, 5.0}, {31.0, 10.0}}) {
+        const std::vector<PlotTick> ticks = Axis({.logarithmic = false}, {end}, {}, 0, 600, false).ticks();
+        ASSERT_EQ(ticks.size(), static_cast<std::size_t>(end / step) + 1) << end;
+        for (std::size_t i = 0; i < ticks.size(); ++i) {
+            EXPECT_EQ(ticks[i].text, fmt::format("{:g}", static_cast<double>(i) * step));
+            EXPECT_NEAR(ticks[i].at, 600 * static_cast<double>(i) * step / end, 1e-9);
+        }
+    }
+    // A short part of a decade is even too, and has each tick once.
+    std::vector<double> positions;
+    for (const PlotTick& tick : Axis({}, {3, 4}, {}, 0, 600, false).ticks()) positions.push_back(tick.at);
+    EXPECT_TRUE(std::ranges::adjacent_find(positions, std::greater_equal<>()) == positions.end());
+}
+
 TEST(PlotAxis, PositionsAreLogarithmicLinearOrEven) {
     const Axis logarithmic({}, {1, 100}, {}, 0, 100, false);
     EXPECT_NEAR(logarithmic.at(10), 50, 1e-9);
@@ -133,6 +151,11 @@ TEST(PlotAxis, ZeroAndInfiniteValuesHaveLanesBehindALine) {
     EXPECT_GT(axis.at(0), axis.at(1e-3) + 10);
     EXPECT_LT(axis.at(infinite), axis.at(1) - 10);
     EXPECT_EQ(axis.at(none), axis.at(infinite));
+    for (const PlotTick& tick : axis.ticks())
+        if (std::string_view(tick.kind) == "gap") {
+            EXPECT_EQ(tick.at, axis.at(tick.text == "0" ? 0 : infinite)) << "named in the middle of its lane";
+            EXPECT_NEAR(std::abs(tick.line - (tick.text == "0" ? 100 : 0)), 26, 1e-9);
+        }
 }
 
 // ---- Data ----
@@ -253,6 +276,9 @@ TEST(Plot, EverythingIsDrawnAtItsValues) {
     PlotPanel& panel = plot.panels[0];
     panel.pointsOf("deferred", Path::deferred) = {
         {.x = 1, .y = 2, .across = {0.5, 1.5}, .up = {1, 3}}, {.x = 4, .y = 3, .row = 5}, {.x = 2, .y = 4}};
+    panel.pointsOf("forward_plus", Path::forward_plus) = {{.x = 3, .y = 2}, {.x = 1, .y = 4, .best = true}};
+    panel.pointsOf("reference", Path::reference) = {{.x = 2, .y = 3}};
+    panel.pointsOf("other", {}) = {{.x = 4, .y = 4}};
     panel.bars = {{{0, 2}, {0, 1}, 0, "b"}, {{2, 3}, {0, 1}, 0, "c", true}};
     panel.limits = {{.x = 3, .name = "l"}, {.y = 1, .name = "m", .strict = false}};
     panel.front = {{2, 1}, {1, 3}};
@@ -272,9 +298,22 @@ TEST(Plot, EverythingIsDrawnAtItsValues) {
             "<title>{}</title></rect>",
             kind, box.left + from / 4 * width, y(1), (to - from) / 4 * width, height / 4, title);
     };
+    // Half sizes: of a square 0.9 of the radius, 4 or, for the best, 6; of a bar 1 and 3 radii.
+    const auto squareOf = [&](double across, double up, double half, double tall) {
+        return fmt::format(
+            "<rect class=\"mark\" x=\"{:.2f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{:.1f}\">",
+            box.left + across / 4 * width - half, box.bottom - up / 4 * height - tall, 2 * half, 2 * tall);
+    };
+    std::string grid;
+    for (int i = 0; i <= 4; ++i) grid += fmt::format("M{} {}L{} {}", x(i), y(4), x(i), y(0));
+    for (int i = 0; i <= 4; ++i) grid += fmt::format("M{} {}L{} {}", x(0), y(i), x(4), y(i));
     for (const std::string& shown :
-         {barOf("part0", 0, 2, "b"), barOf("past", 2, 3, "c"), lineOf("budget", 3, 4, 3, 0),
-          lineOf("usual", 0, 1, 4, 1), lineOf("bar", 0.5, 2, 1.5, 2), lineOf("bar", 1, 1, 1, 3),
+         {squareOf(3, 2, 3.6, 3.6), squareOf(1, 4, 5.4, 5.4), squareOf(4, 4, 1, 12),
+          fmt::format("<path class=\"mark\" d=\"M{} {:.1f}l4.8 4.8l-4.8 4.8l-4.8 -4.8z\"/>", x(2),
+                      box.bottom - 3.0 / 4 * height - 4.8),
+          fmt::format("<path class=\"grid\" d=\"{}\"/>", grid), barOf("part0", 0, 2, "b"),
+          barOf("past", 2, 3, "c"), lineOf("budget", 3, 4, 3, 0), lineOf("usual", 0, 1, 4, 1),
+          lineOf("bar", 0.5, 2, 1.5, 2), lineOf("bar", 1, 1, 1, 3),
           fmt::format("class=\"front\" d=\"M{} {}V{}H{}V{}H{}\"", x(1), y(4), y(3), x(2), y(1), x(4)),
           fmt::format("class=\"trace\" d=\"M{} {}L{} {}L{} {}\"", x(1), y(2), x(4), y(3), x(2), y(4)),
           fmt::format("class=\"mark\" cx=\"{}\" cy=\"{}\"", x(1), y(2)),
@@ -283,6 +322,21 @@ TEST(Plot, EverythingIsDrawnAtItsValues) {
         EXPECT_EQ(countOf(svg, shown), 1u) << shown << "\n" << svg;
     EXPECT_GT(width, 0);
     EXPECT_GT(height, 0);
+    EXPECT_GT(svg.find("point best"), svg.rfind("class=\"point\"><title>")) << "the best are on top";
+}
+
+TEST(Plot, AnAxisReachesToTheEndsOfIntervalsAndBars) {
+    Plot plot{.panels = {{.across = {.logarithmic = false}, .up = {.logarithmic = false}}}};
+    plot.panels[0].pointsOf("deferred",
+                            Path::deferred) = {{.x = 1, .y = 1, .across = {0.5, 4}, .up = {0.5, 8}}};
+    plot.panels[0].bars = {{{0, 16}, {0, 1}, 0, "b"}};
+    const std::string svg = svgOf(plot, PlotTarget::page);
+    const PlotBox box = boxesOf(svg).at(0);
+    EXPECT_EQ(allOf(svg, "class=\"bar\" d=\"M[0-9.]+ [0-9.]+L([0-9.]+) ").at(0),
+              fmt::format("{:.1f}", box.left + (box.right - box.left) / 4))
+        << "4 of 16";
+    EXPECT_EQ(allOf(svg, "class=\"bar\" d=\"M[0-9.]+ [0-9.]+L[0-9.]+ ([0-9.]+)\"").at(1),
+              fmt::format("{:.1f}", box.top));
 }
 
 // Rows of panels have the plot's height, or the height of their categories. Below them is the legend, whose

@@ -230,6 +230,40 @@ TEST(TradeoffOutput, PlotsAndPageAreWellFormed) {
     EXPECT_EQ(page.find("<scene>"), std::string::npos);
 }
 
+TEST(TradeoffOutput, ThePageAndTheTerminalSayWhatCameOfIt) {
+    Tradeoff tradeoff = several();
+    tradeoff.notes = {"a note"};
+    EXPECT_EQ(tradeoffEnd(tradeoff),
+              "  Pareto front of time and FLIP: rows 3, 2, 1\n"
+              "  Pareto front of time and relative RMSE: rows 3, 2, 1\n"
+              "  Pareto front of time and relative p99: rows 3, 2, 1\n"
+              "Warnings\n  row 2: one, \"two\"\n"
+              "Not drawn, and why\nhas no effect without --msaa 4: msaa-edges all\n"
+              "How it was measured\n  It took 0.0 s, 0.0 s of which to draw and time the rows\n  a note\n");
+    tradeoff.reference_image = "r.png";
+    const std::string page = tradeoffHtml(tradeoff);
+    for (const std::string& part :
+         {std::string(
+              "<h1>Time against error: <bdi>a &amp; b&#39;s &lt;scene&gt;.glb</bdi></h1><p class=\"soft\">"
+              "4 rows at 640x360 on llvmpipe (Mesa), 5 timed frames each; <bdi>a, &quot;b&quot; &lt;c&gt;"
+              "</bdi>; errors of lit against the reference</p>"),
+          std::string(
+              "<article class=\"row-card\" data-row=\"2\" hidden><h3>deferred</h3><p class=\"soft\">row 2</p>"
+              "<div class=\"pictures\"><figure><img loading=\"lazy\" src=\"x.png\" "
+              "alt=\"lit\"><figcaption>lit"
+              "</figcaption></figure><figure><img loading=\"lazy\" src=\"r.png\" "
+              "alt=\"reference\"><figcaption>"
+              "reference</figcaption></figure><figure><img loading=\"lazy\" src=\"x.png\" "
+              "alt=\"FLIP: black 0, pale 1\"><figcaption>FLIP: black 0, pale 1</figcaption></figure></div>"
+              "<dl><dt>time, ms</dt><dd>4 (3.6 to 6)</dd><dt>FLIP</dt><dd>0.01</dd><dt>relative RMSE</dt>"
+              "<dd>0.02</dd><dt>relative p99</dt><dd>0.04</dd><dt>memory</dt><dd>1.172 KiB</dd><dt>shade</dt>"
+              "<dd>2 ms</dd></dl><p class=\"warn\">one, &quot;two&quot;</p>"),
+          std::string("data-row=\"3\"><h3>"), std::string("<div data-figure=\"flip\"><"),
+          std::string("<div data-figure=\"relative_rmse\" hidden><"),
+          std::string("<div data-figure=\"relative_p99\" hidden><")})
+        EXPECT_NE(page.find(part), page.npos) << part;
+}
+
 // Rows fit the terminal: numbers are dropped one by one, then Settings are truncated.
 TEST(TradeoffOutput, RowsFitTheTerminal) {
     const Tradeoff tradeoff = several();
