@@ -13,7 +13,7 @@
 #   program, folder (its label), results (folder of JUnit files), here (folder of this file)
 #   seconds: limit of a process
 #   processes: number of processes that share the suites; 0: one for each suite
-#   validated: suites under the validation layers, in three further processes; all if empty. Others set
+#   validated: suites under the validation layers, in four further processes; all if empty. Others set
 #     DIPTYCH_VALIDATE=0. Lavapipe optimises shaders of these suites alone, and none in the default tier: small
 #     images take it longer to compile than to draw (MEASURED.md).
 #   validated_by_all: further such suites, but in the default tier
@@ -89,7 +89,7 @@ foreach(line IN LISTS lines)
     elseif(processes EQUAL 0 OR NOT "$ENV{DIPTYCH_TESTS}" STREQUAL "")
       run_in(${folder}.${short} ${suite}.*)
     elseif(is_validated GREATER -1)
-      math(EXPR number "(${at} - 1) * 3 / ${count} + 1")
+      math(EXPR number "(${at} - 1) * 4 / ${count} + 1")
       run_in(${folder}.validated.${number} ${suite}.*)
     else()
       math(EXPR number "(${at} - 1) * ${processes} / ${count} + 1")

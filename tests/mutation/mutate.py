@@ -269,6 +269,9 @@ def blamed(said, edits, tree):
         file, error = os.path.relpath(tree / "build" / path, tree), "error: " in text or "' : " in text
         below = range(int(line), int(line) + (12 if "declared here" in text else 1))  # in the function declared there
         edit = next((places[file, at] for at in below if (file, at) in places), None)
+        if edit is None and "declared 'constexpr'" in text:  # behind the edit, in the declaration that it made const
+            edit = max(((e.start, e.number) for e in edits
+                        if e.file == file and e.const and e.lines[1] < int(line)), default=(0, None))[1]
         if error or "expansion of" in text or "note: " in text and unexplained:  # an error's context stands above it
             bad.add(edit)
         if edit or "note: " not in text:

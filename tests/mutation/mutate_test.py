@@ -94,6 +94,9 @@ class Drawn(unittest.TestCase):
                           (place + "warning: no", False),
                           (other + "/t/b.cpp:2:1: warning: no\n" + place + "note: here", False)):
             self.assertEqual(mutate.blamed(said, edits, pathlib.Path("/t")), {edit.number} if bad else set(), said)
+        edit.const = [(0, 0, "const")]
+        said = other + f"/t/shared/a/a.h:{edit.lines[1] + 9}:1: note: 'x' was not declared 'constexpr'"
+        self.assertEqual(mutate.blamed(said, edits, pathlib.Path("/t")), {edit.number})
 
     def test_where_modules_become_known_there_is_what_sets_the_switch(self):
         sources = "".join(p.read_text(encoding="utf-8") for p in mutate.ROOT.rglob("shared/vulkan/**/*.cpp"))

@@ -20,35 +20,6 @@
 namespace diptych {
 namespace {
 
-// Two 1 x 1 Frames with every channel, as input of a tolerance.
-struct Pair {
-    Frame deferred, forward;
-    Requirements needs;
-    Coverage covered = everyPixel(1);
-    bool cpu = true;
-
-    Pair() {
-        deferred.name = "deferred";
-        deferred.settings.path = Path::deferred;
-        forward.name = "forward_plus";
-        forward.settings.path = Path::forward_plus;
-        deferred.settings.size = forward.settings.size = {1, 1};
-        for (const DebugMode& mode : debugModes()) {
-            forward.channels[mode.channel] = Image(1, 1, mode.width, 0.5f);
-            if (isAngle(mode.error_kind)) forward.channels[mode.channel].data = {0.6f, 0, 0.8f};
-            if (mode.supported_by != SupportedBy::forward_only)
-                deferred.channels[mode.channel] = forward.channels[mode.channel];
-            if (mode.supported_by == SupportedBy::deferred_only) forward.channels.erase(mode.channel);
-        }
-    }
-    Pair& encoding(GBufferEncoding e) {
-        deferred.settings.gbuffer = forward.settings.gbuffer = e;
-        return *this;
-    }
-    FramePair pair() const { return {deferred, forward, needs, covered, cpu}; }
-    Tolerance of(Channel mode) const { return derivedTolerance(debugMode(mode), pair()); }
-};
-
 double quantised(double x, unsigned bits) {
     const double top = (1u << bits) - 1;
     return std::floor(x * top + 0.5) / top;
@@ -119,7 +90,7 @@ TEST(Tolerance, OctahedralBoundIsThatOfTheMeasuredTable) {
 }
 
 TEST(Tolerance, HalfStepsOfEachPackedNumber) {
-    Pair p;
+    OnePixelPair p;
     EXPECT_NEAR(p.encoding(GBufferEncoding::standard).of(Channel::metallic).max, 0.5 / 255, 1e-6);
     EXPECT_NEAR(p.of(Channel::roughness).max, 0.5 / 4095, 1e-6);
     EXPECT_NEAR(p.of(Channel::occlusion).max, 0.5 / 255, 1e-6);
@@ -130,7 +101,7 @@ TEST(Tolerance, HalfStepsOfEachPackedNumber) {
 
 TEST(Tolerance, HalfStepsOfEachLayer) {
     for (const GBufferEncoding e : {GBufferEncoding::compact, GBufferEncoding::standard}) {
-        Pair p;
+        OnePixelPair p;
         p.encoding(e).needs.surface_layers = gpu::LAYER_CLEARCOAT | gpu::LAYER_ANISOTROPY;
         for (const Channel mode : {Channel::clearcoat, Channel::clearcoat_roughness, Channel::anisotropy})
             EXPECT_NEAR(p.of(mode).max, 0.5 / 4095, 1e-6) << debugMode(mode).name;
@@ -140,7 +111,7 @@ TEST(Tolerance, HalfStepsOfEachLayer) {
 }
 
 TEST(Tolerance, AnAbsentLayerIsNotStored) {
-    Pair p;
+    OnePixelPair p;
     p.encoding(GBufferEncoding::compact).needs.surface_layers = gpu::LAYER_ANISOTROPY;
     EXPECT_EQ(p.of(Channel::clearcoat).max, 0);
     EXPECT_GT(p.of(Channel::anisotropy).max, 0);
@@ -198,7 +169,7 @@ TEST(Tolerance, LineBoundHoldsAndIsTight) {
 }
 
 TEST(Tolerance, AlbedoAndSpecularBoundsHoldAndAreTight) {
-    Pair p;
+    OnePixelPair p;
     p.needs.dielectric_specular = true;
     double worstAlbedo = 0;
     for (int i = 0; i <= 1'000'000; ++i) {
@@ -231,7 +202,7 @@ TEST(Tolerance, AlbedoAndSpecularBoundsHoldAndAreTight) {
 }
 
 TEST(Tolerance, EmissionIsHalfOfNineBits) {
-    Pair p;
+    OnePixelPair p;
     p.needs.emission = true;
     p.needs.min_emission = p.needs.max_emission = 1;
     EXPECT_NEAR(p.of(Channel::emission).max, 0.5 / 256, 0.01 * 0.5 / 256);
@@ -247,7 +218,7 @@ TEST(Tolerance, EmissionIsHalfOfNineBits) {
 TEST(Tolerance, EmissionDarkerThanTheLastExponentIsStillBound) {
     // Textures can darken emission to where 9.9.9.e5 has a fixed step of 2^-24. A mean of 2^-20 gives a
     // smallest denominator of 1e-3 x 2^-20, so half a step is up to 2^-25 / (1e-3 x 2^-20) of it.
-    Pair p;
+    OnePixelPair p;
     p.needs.emission = true;
     p.needs.min_emission = p.needs.max_emission = 1;
     p.deferred.channels[Channel::emission] = Image(1, 1, 3, 0x1p-20f);
@@ -259,7 +230,7 @@ TEST(Tolerance, EmissionDarkerThanTheLastExponentIsStillBound) {
 TEST(Tolerance, WhatIsNotPackedMustBeEqual) {
     for (const GBufferEncoding e :
          {GBufferEncoding::compact, GBufferEncoding::standard, GBufferEncoding::full}) {
-        Pair p;
+        OnePixelPair p;
         p.encoding(e);
         for (const Channel mode : {Channel::material_id, Channel::depth, Channel::position,
                                    Channel::lightmapped, Channel::light_count, Channel::list_overflow})
@@ -268,7 +239,7 @@ TEST(Tolerance, WhatIsNotPackedMustBeEqual) {
 }
 
 TEST(Tolerance, FullIsExactOnACpuAndSixteenUlpOnAGpu) {
-    Pair p;
+    OnePixelPair p;
     p.encoding(GBufferEncoding::full).needs.emission = true;
     for (const DebugMode& mode : debugModes()) {
         if (mode.supported_by == SupportedBy::forward_only) continue;
@@ -291,7 +262,7 @@ TEST(Tolerance, ADepthThatWasNotStoredIsNamedOnAGpu) {
     for (const bool cpu : {true, false})
         for (const Switch prepass : {Switch::on, Switch::off, Switch::automatic})
             for (const Channel mode : {Channel::depth, Channel::position, Channel::albedo}) {
-                Pair p;
+                OnePixelPair p;
                 p.cpu = cpu;
                 p.encoding(GBufferEncoding::full);
                 p.forward.settings.prepass = prepass;
@@ -301,187 +272,16 @@ TEST(Tolerance, ADepthThatWasNotStoredIsNamedOnAGpu) {
             }
 }
 
-// Reasons of a pair's tolerances, each with its channels.
-std::map<std::string, std::string> reasonsOf(const FramePair& pair) {
-    std::map<std::string, std::string> reasons;
-    for (const DebugMode& mode : debugModes())
-        if (pair.baseline.channels.contains(mode.channel) && pair.test.channels.contains(mode.channel))
-            reasons[derivedTolerance(mode, pair).because] += std::string(mode.name) + " ";
-    return reasons;
-}
-using Reasons = std::map<std::string, std::string>;
-
-TEST(Tolerance, EachChannelHasItsReason) {
-    Pair p;
-    p.needs.surface_layers = ~0u;
-    p.needs.emission = p.needs.lightmap = p.needs.dielectric_specular = true;
-    p.needs.min_emission = p.needs.max_emission = p.needs.max_lightmap = 1;
-    EXPECT_EQ(
-        reasonsOf(p.encoding(GBufferEncoding::standard).pair()),
-        (Reasons{
-            {"(n - 1) / (n + 1) in 9 bits: half a step, 0.5 / 510, of the largest index n, 0.5",
-             "iridescence_ior "},
-            {"both paths use one list, chosen by the same function of pixel and depth",
-             "light_count list_overflow "},
-            {"forward+ was not rendered through this G-buffer's encoding, so it explains no difference",
-             "lit lit_diffuse lit_specular lit_ambient lit_environment lit_clearcoat lit_sheen "
-             "lit_transmission "},
-            {"half a step of 12 bits, 0.5 / 4095", "roughness clearcoat clearcoat_roughness anisotropy "},
-            {"half a step of 8 bits, 0.5 / 255",
-             "metallic occlusion dielectric_f90 sheen_roughness iridescence diffuse_transmission "},
-            {"half a step of a 9-bit mantissa whose top bit is set, 0.5 / 256", "emission lightmap "},
-            {"half a step of a half's 10-bit mantissa, 2^-11", "iridescence_thickness "},
-            {"it is stored exactly", "lightmapped "},
-            {"its plane turns with the octahedral normal in 16+16 bits; across that, half a step of an angle "
-             "in 16 bits, 180 / 2^17; degrees",
-             "anisotropy_direction "},
-            {"mixed from albedo and F0 (sqrt in 8 bits, 0.00392) by metallic (half a step, 0.00196)",
-             "specular "},
-            {"octahedral in 16+16 bits: half a step in both at a face's centre, degrees",
-             "normals geometric_normal clearcoat_normal "},
-            {"square root in 8 bits: 2h - h^2 with half a step h = 0.5 / 255",
-             "albedo dielectric_f0 sheen_color diffuse_transmission_color "},
-            {"surfaces with transmission are drawn after either path, by the same shader",
-             "transmission transmission_thickness attenuation_color attenuation_distance dispersion "},
-            {"the index is stored exactly", "material_id "},
-            {"the same function of pixel and depth in both paths", "depth position lit_haze transmittance "},
-            {"the same maps, read at the same positions along the same normals",
-             "shadow_visibility cascade page_residency local_visibility "}}));
-    p.needs.max_emission = p.needs.max_lightmap = 1e6f;
-    EXPECT_EQ(p.of(Channel::emission).because, "float32: the scene's emission exceeds the range of 9.9.9.e5");
-    EXPECT_EQ(p.of(Channel::lightmap).because, "float32: the scene's lightmaps exceed the range of 9.9.9.e5");
-    p.needs = {};
-    EXPECT_EQ(
-        reasonsOf(p.encoding(GBufferEncoding::compact).pair()),
-        (Reasons{
-            {"both paths use one list, chosen by the same function of pixel and depth",
-             "light_count list_overflow "},
-            {"every dielectric has F0 = 0.04: nothing is stored", "dielectric_f0 "},
-            {"every dielectric has F90 = 1: nothing is stored", "dielectric_f90 "},
-            {"forward+ was not rendered through this G-buffer's encoding, so it explains no difference",
-             "lit lit_diffuse lit_specular lit_ambient lit_environment lit_clearcoat lit_sheen "
-             "lit_transmission "},
-            {"half a step of 6 bits, 0.5 / 63", "metallic "},
-            {"half a step of 8 bits, 0.5 / 255", "roughness occlusion "},
-            {"it is stored exactly", "lightmapped "},
-            {"mixed from albedo (sqrt in 8 bits, 0.00392) by metallic (half a step, 0.00794)", "specular "},
-            {"nothing in the scene emits", "emission "},
-            {"nothing in the scene has a clear coat", "clearcoat clearcoat_roughness clearcoat_normal "},
-            {"nothing in the scene has a lightmap", "lightmap "},
-            {"nothing in the scene has a sheen", "sheen_color sheen_roughness "},
-            {"nothing in the scene has a thin film", "iridescence iridescence_ior iridescence_thickness "},
-            {"nothing in the scene is anisotropic", "anisotropy anisotropy_direction "},
-            {"nothing in the scene transmits light diffusely",
-             "diffuse_transmission diffuse_transmission_color "},
-            {"octahedral in 12+12 bits: half a step in both at a face's centre, degrees", "normals "},
-            {"octahedral in 8+8 bits: half a step in both at a face's centre, degrees", "geometric_normal "},
-            {"square root in 8 bits: 2h - h^2 with half a step h = 0.5 / 255", "albedo "},
-            {"surfaces with transmission are drawn after either path, by the same shader",
-             "transmission transmission_thickness attenuation_color attenuation_distance dispersion "},
-            {"the index is stored exactly", "material_id "},
-            {"the same function of pixel and depth in both paths", "depth position lit_haze transmittance "},
-            {"the same maps, read at the same positions along the same normals",
-             "shadow_visibility cascade page_residency local_visibility "}}));
-    p.encoding(GBufferEncoding::full);
-    for (const DebugMode& mode : debugModes()) {
-        if (mode.supported_by == SupportedBy::forward_only || mode.supported_by == SupportedBy::deferred_only)
-            continue;
-        p.cpu = true;
-        const std::string exact = "the full G-buffer stores float32 exactly";
-        EXPECT_EQ(derivedTolerance(mode, p.pair()).because, exact);
-        p.cpu = false;
-        p.forward.settings.prepass = Switch::on;
-        EXPECT_EQ(derivedTolerance(mode, p.pair()).because,
-                  mode.error_kind == ErrorKind::exact
-                      ? exact
-                      : exact + "; plus 16 ULP of the pixel's largest component on a GPU");
-    }
-    const FramePair twice{p.forward, p.forward, p.needs, p.covered};
-    EXPECT_EQ(derivedTolerance(debugMode(Channel::albedo), twice).because,
-              "one path twice: the same function of the same inputs");
-    p.deferred.origin.external = true;
-    EXPECT_EQ(p.of(Channel::albedo).because,
-              "an external renderer's image has no derived tolerance: give rules (--tolerances)");
-}
-
-TEST(Tolerance, AgainstTheReferenceEachChannelHasItsReason) {
-    Pair p;
-    p.encoding(GBufferEncoding::full);
-    Frame reference = p.forward;
-    reference.name = "reference";
-    reference.settings.path = Path::reference;
-    const auto reasons = [&] { return reasonsOf({reference, p.forward, p.needs, p.covered}); };
-    EXPECT_EQ(
-        reasons(),
-        (Reasons{{"farther than the filter radius and one texel from a shadow boundary, visibility is 0 or 1",
-                  "shadow_visibility "},
-                 {"float32 against double, 1e-4; plus the image's change within two pixels and one code of a "
-                  "texture, because the reference traces these surfaces itself",
-                  "transmission transmission_thickness attenuation_color attenuation_distance dispersion "},
-                 {"float32 against quadrature in double, 1e-4", "lit_haze "},
-                 {"float32 against quadrature in double, 1e-6", "transmittance "},
-                 {"float32 shading against double, 1e-4",
-                  "lit lit_diffuse lit_specular lit_ambient lit_environment lit_clearcoat lit_sheen "
-                  "lit_transmission "},
-                 {"float32 weights against double, 1e-4; farther than the filter radius and one texel from a "
-                  "shadow boundary, a light's visibility is 0 or 1",
-                  "local_visibility "},
-                 {"float32, nothing is packed",
-                  "albedo normals metallic roughness emission occlusion specular material_id texcoords depth "
-                  "position geometric_normal light_count list_overflow cascade page_residency dielectric_f90 "
-                  "lightmap tangent handedness tangent_normal dielectric_f0 lightmapped clearcoat "
-                  "clearcoat_roughness clearcoat_normal anisotropy anisotropy_direction sheen_color "
-                  "sheen_roughness iridescence iridescence_ior iridescence_thickness diffuse_transmission "
-                  "diffuse_transmission_color "}}));
-    p.encoding(GBufferEncoding::compact).forward.through_gbuffer[Channel::lit] = Image(1, 1, 3);
-    const FramePair encoded{p.deferred, reference, p.needs, p.covered, true, &p.forward};
-    EXPECT_EQ(derivedTolerance(debugMode(Channel::lit), encoded).because,
-              "float32 shading against double, 1e-4; on the surfaces that the compact G-buffer decodes, as "
-              "forward_plus shades them");
-    EXPECT_EQ(derivedTolerance(debugMode(Channel::metallic), encoded).because,
-              "half a step of 6 bits, 0.5 / 63");
-    reference.rounding = Image(1, 1, 4);
-    reference.uncertainty = Image(1, 1, 1);
-    reference.environment_costs = Image(1, 1, 9);
-    reference.shadow_edge = Image(1, 1, 2);
-    reference.blended = Image(1, 1, 3, 0.5f);
-    p.forward.shadow_filter_radii = {{10, 0.1}};
-    p.forward.settings.haze = true;
-    p.forward.settings.haze_march_steps = 16;
-    for (const auto& [channel, because] :
-         {std::pair{
-              Channel::lit,
-              "float32 shading against double, 1e-4 or, where light grazes, nears its range or meets a sharp "
-              "lobe, what float32 positions err by; plus a shadow-casting light's contribution where its "
-              "shadow boundary lies within the filter radius and one texel; plus the error of irradiance by "
-              "harmonics of order 2 and the base's mean share of it, the split sum, the spread of its maps' "
-              "samples and 8 % at each pixel, as the reference integrates it; plus the image's change within "
-              "two pixels where fragments are blended or glass stands, because the reference traces its own "
-              "rays; plus any error of light through rough or refracting glass, which a path takes from its "
-              "own picture; plus the reference's uncertainty at each pixel, at 99.9 % confidence; plus the "
-              "error of 16 steps through haze, 0.62 % of its light"},
-          {Channel::lit_haze,
-           "float32 against quadrature in double, 1e-4; plus the error of 16 steps through haze, 0.62 % of "
-           "its light"},
-          {Channel::lit_ambient,
-           "float32 shading against double, 1e-4 or, where light grazes, nears its range or meets a sharp "
-           "lobe, what float32 positions err by; plus a shadow-casting light's contribution where its shadow "
-           "boundary lies within the filter radius and one texel; plus the reference's uncertainty at each "
-           "pixel, at 99.9 % confidence"}})
-        EXPECT_EQ(derivedTolerance(debugMode(channel), {reference, p.forward, p.needs, p.covered}).because,
-                  because);
-}
-
 // lit: only changes that the encoding's bits can cause are tolerated.
-Pair litPair() {
-    Pair p;
+OnePixelPair litPair() {
+    OnePixelPair p;
     p.forward.channels[Channel::lit] = Image(1, 1, 3, 1.0f);
     p.forward.through_gbuffer[Channel::lit] = p.deferred.channels[Channel::lit] = Image(1, 1, 3, 1.25f);
     return p;
 }
 
 TEST(Tolerance, LitIsGrantedWhatDecodedSurfacesChange) {
-    const Pair p = litPair();
+    const OnePixelPair p = litPair();
     // 0.25 of 1.25, with deferred as the baseline.
     EXPECT_NEAR(p.of(Channel::lit).max, 0.2, 1e-9);
     EXPECT_EQ(p.of(Channel::lit).because,
@@ -495,7 +295,7 @@ TEST(Tolerance, LitIsGrantedWhatDecodedSurfacesChange) {
 }
 
 TEST(Tolerance, LitThatTheEncodingDoesNotExplainIsFound) {
-    Pair p = litPair();
+    OnePixelPair p = litPair();
     // Closer to forward+ than the tolerance, yet different from the encoding's result.
     p.deferred.channels[Channel::lit].data[1] = std::nextafter(1.25f, 2.0f);
     EXPECT_EQ(unexplainedPixels(debugMode(Channel::lit), p.pair()), 1u);
@@ -509,7 +309,7 @@ TEST(Tolerance, LitThatTheEncodingDoesNotExplainIsFound) {
 }
 
 TEST(Tolerance, LitWithoutTheEncodedImageIsNotExcused) {
-    Pair p = litPair();
+    OnePixelPair p = litPair();
     p.forward.through_gbuffer.clear();
     EXPECT_EQ(p.of(Channel::lit).max, 0);
     EXPECT_NE(p.of(Channel::lit).because.find("so it explains no difference"), std::string::npos);
@@ -519,7 +319,7 @@ TEST(Tolerance, LitWithoutTheEncodedImageIsNotExcused) {
     EXPECT_EQ(p.of(Channel::lit).max, 0) << "another encoding explains nothing";
 }
 
-Report reportOf(const Pair& p) {
+Report reportOf(const OnePixelPair& p) {
     Report report;
     report.device.type = p.cpu ? "cpu" : "discrete";
     report.frames = {p.deferred, p.forward};
@@ -531,7 +331,7 @@ const ChannelDiff& channelOf(const Comparison& comparison, Channel wanted) {
 }
 
 TEST(Diff, EqualFramesPassAndForwardOnlyNeverCounts) {
-    const Pair p;
+    const OnePixelPair p;
     const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
     EXPECT_TRUE(c.passed());
     EXPECT_EQ(c.channels.size(), debugModes().size());
@@ -543,7 +343,7 @@ TEST(Diff, EveryChannelCanFail) {
     for (const DebugMode& mode : debugModes()) {
         if (mode.supported_by == SupportedBy::forward_only || mode.supported_by == SupportedBy::deferred_only)
             continue;
-        Pair p;
+        OnePixelPair p;
         float& value = p.forward.channels[mode.channel].data[0];
         value = mode.error_kind == ErrorKind::exact ? value + 1 : -value;
         const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
@@ -551,14 +351,14 @@ TEST(Diff, EveryChannelCanFail) {
         EXPECT_EQ(std::ranges::count(c.channels, Verdict::fail, &ChannelDiff::verdict), 1) << mode.name;
         EXPECT_FALSE(channelOf(c, mode.channel).reason.empty());
 
-        Pair bad;
+        OnePixelPair bad;
         bad.deferred.channels[mode.channel].data[0] = std::numeric_limits<float>::quiet_NaN();
         EXPECT_FALSE(compareFrames(reportOf(bad), 0, 1, bad.needs).passed()) << mode.name << ": NaN";
     }
 }
 
 TEST(Diff, TheUnexplainedFailsWithinTheTolerance) {
-    Pair p = litPair();
+    OnePixelPair p = litPair();
     p.deferred.channels[Channel::lit].data = {1.2f, 1.2f, 1.2f};
     const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
     const ChannelDiff& lit = channelOf(c, Channel::lit);
@@ -571,7 +371,7 @@ TEST(Diff, TheUnexplainedFailsWithinTheTolerance) {
 }
 
 TEST(Diff, AFrameThatItsCaptureDoesNotReproduceFails) {
-    Pair p;
+    OnePixelPair p;
     p.forward.counters.unreproduced_pixels = 1;
     const Comparison c = compareFrames(reportOf(p), 0, 1, p.needs);
     EXPECT_FALSE(c.passed());
@@ -580,7 +380,7 @@ TEST(Diff, AFrameThatItsCaptureDoesNotReproduceFails) {
 }
 
 TEST(Diff, NonFiniteLitFailsThoughBothAgree) {
-    Pair p;
+    OnePixelPair p;
     for (Frame* frame : {&p.deferred, &p.forward}) {
         frame->channels[Channel::lit].data[0] = std::numeric_limits<float>::infinity();
         frame->counters.nonfinite_pixels = 1;
@@ -591,17 +391,17 @@ TEST(Diff, NonFiniteLitFailsThoughBothAgree) {
 }
 
 TEST(Diff, OtherSizesAndNoCommonChannelAreErrors) {
-    Pair p;
+    OnePixelPair p;
     p.forward.settings.size.width = 7;
     EXPECT_THROW(compareFrames(reportOf(p), 0, 1, p.needs), std::runtime_error);
-    Pair q;
+    OnePixelPair q;
     q.deferred.channels.clear();
     EXPECT_THROW(compareFrames(reportOf(q), 0, 1, q.needs), std::runtime_error);
 }
 
 TEST(Diff, TheBaselineIsOnTheLeft) {
     for (const Path baseline : {Path::deferred, Path::forward_plus}) {
-        const Pair p;
+        const OnePixelPair p;
         const Report report = makeReport({{{p.forward, p.deferred}, p.needs}}, {},
                                          {.baseline = baseline, .rules = {}, .selection = {}, .words = {}});
         ASSERT_EQ(report.comparisons.size(), 1u);
