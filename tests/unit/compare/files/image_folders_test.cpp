@@ -34,6 +34,33 @@ TEST(ImageFolders, NoCommonNameTellsTheForm) {
     EXPECT_EQ(plain.find("Unicode form"), plain.npos) << plain;
 }
 
+// Images of either folder by their names below it: any letter case of an image's ending, no hidden file or
+// folder, nothing else.
+TEST(ImageFolders, ImagesArePairedByTheirNames) {
+    const std::filesystem::path root = folder();
+    for (const char* name :
+         {"a/1.exr",    "a/2.PNG",  "a/deep/3.hdr", "a/4.pfm",       "a/5.tif",       "a/6.tiff",
+          "a/7.jpg",    "a/8.JPeg", "a/.9.png",     "a/.deep/1.png", "a/notes.txt",   "a/png",
+          "a/only.png", "b/1.exr",  "b/2.PNG",      "b/deep/3.hdr",  "b/4.pfm",       "b/5.tif",
+          "b/6.tiff",   "b/7.jpg",  "b/8.JPeg",     "b/.9.png",      "b/.deep/1.png", "b/notes.txt",
+          "b/png",      "b/2.png",  "b/deep/1.exr", "c/tea.png",     "c/x.jpg"}) {
+        std::filesystem::create_directories((root / name).parent_path());
+        std::ofstream(root / name) << "x";
+    }
+    std::filesystem::create_directories(root / "a/folder.png");
+    std::filesystem::create_directories(root / "b/folder.png");
+    const ImageFolders pairs = imageFolders(root / "a", root / "b");
+    EXPECT_EQ(pairs.both, (std::vector<std::string>{"1.exr", "2.PNG", "4.pfm", "5.tif", "6.tiff", "7.jpg",
+                                                    "8.JPeg", "deep/3.hdr"}));
+    EXPECT_EQ(pairs.reference_alone, std::vector<std::string>{"only.png"});
+    EXPECT_EQ(pairs.test_alone, (std::vector<std::string>{"2.png", "deep/1.exr"}));
+    EXPECT_EQ(faultOf([&] { imageFolders(root / "a", root / "c"); }),
+              (root / "a").string() + " and " + (root / "c").string() +
+                  " share no picture name (9 and 2 pictures)");
+    EXPECT_EQ(faultOf([&] { imageFolders(root / "absent", root / "c"); }),
+              (root / "absent").string() + ": No such file or directory");
+}
+
 TEST(ImageFolders, AFailureTellsTheForm) {
     FolderDiff diff{"a", "b", {}, {}, {}, {}};
     diff.reference_alone = {"caf\u00e9.png", "tea.png"};
