@@ -8,8 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -163,26 +161,13 @@ Probe doubling() {
     return p;
 }
 
-TEST(DeviceProbes, TheTableAndTheJsonSayWhatFailsAndOfWhichInput) {
+TEST(DeviceProbes, OneThatFailsFailsAll) {
     const Probe probe = doubling();
     const std::array results{doubled(probe, 1), doubled(probe, 1.5f)};
     EXPECT_TRUE(results[0].passed);
     EXPECT_FALSE(results[1].passed);
     EXPECT_FALSE(allPassed(results));
     EXPECT_TRUE(allPassed(std::span(results).first(1)));
-    const std::string table = tableOf(results, true);
-    EXPECT_NE(table.find("FAIL: 1 of 2 probes, 8 results"), std::string::npos) << table;
-    EXPECT_NE(table.find("3 instead of 2 (0 allowed) for input 1"), std::string::npos) << table;
-    EXPECT_NE(table.find("allowed: a product"), std::string::npos) << table;
-    // A passing probe's table has one line per probe and no reason.
-    const std::string good = tableOf(std::span(results).first(1), false);
-    EXPECT_EQ(std::ranges::count(good, '\n'), 4) << good;
-    EXPECT_NE(good.find("pass: 1 of 1 probes"), std::string::npos) << good;
-    const nlohmann::ordered_json json = jsonOf(results);
-    EXPECT_EQ(json[0]["pass"], true);
-    EXPECT_EQ(json[1]["failures"], 4);
-    EXPECT_EQ(json[1]["of_limit"]["input"][0], 1.0f);
-    EXPECT_EQ(json[0]["histogram"][0]["results"], 4);
 }
 
 TEST(DeviceProbes, AStepBackFailsWhereNoDeviceMayTakeIt) {

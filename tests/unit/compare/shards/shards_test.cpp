@@ -3,12 +3,16 @@
 #include "compare/shards/manifest.h"
 #include "compare/shards/merge.h"
 #include "compare/shards/partition.h"
+#include "compare/shards/scene_items.h"
+#include "tests/support/errors.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <random>
+#include <system_error>
 
 namespace diptych {
 namespace {
@@ -157,6 +161,106 @@ TEST(Shards, AManifestComesBack) {
         std::ofstream(root / "shard.json") << text;
         EXPECT_THROW(readManifest(root, "shard.json"), std::runtime_error) << text;
     }
+}
+
+// A manifest that is no shard's, or whose values do not fit, is named with the place.
+TEST(Shards, AManifestThatDoesNotFitIsNamed) {
+    const fs::path root = folder();
+    const Manifest manifest{
+        "1.0, commit 1",     "compare", {{"shards", 3}}, {2, 3}, {{"a.glb", "a/", 1}, {"b", "b/", 2}},
+        {{"b", "cut short"}}};
+    const nlohmann::ordered_json whole = nlohmann::ordered_json::parse(textOf(manifest));
+    EXPECT_EQ(
+        whole,
+        (nlohmann::ordered_json{
+            {"schema", 1},
+            {"software", "diptych"},
+            {"build", "1.0, commit 1"},
+            {"command", "compare"},
+            {"plan_hash", planHash(manifest.plan)},
+            {"shard", {{"index", 2}, {"count", 3}}},
+            {"items", {{"a.glb", "a/", 1}, {"b", "b/", 2}}},
+            {"errors", nlohmann::ordered_json::array({nlohmann::ordered_json::array({"b", "cut short"})})},
+            {"plan", {{"shards", 3}}}}));
+    EXPECT_NE(planHash(manifest.plan), planHash({{"shards", 4}}));
+    const auto fault = [&](const std::string& patch) {
+        std::ofstream(root / "shard.json") << whole.patch(nlohmann::json::parse(patch));
+        const std::string who = root.string() + ": ",
+                          said = faultOf([&] { readManifest(root, "shard.json"); });
+        EXPECT_TRUE(said.starts_with(who)) << said;
+        return said.substr(std::min(who.size(), said.size()));
+    };
+    const auto put = [&](const std::string& at, const std::string& value) {
+        return fault(R"([{"op":"replace","path":")" + at + R"(","value":)" + value + "}]");
+    };
+    const std::string foreign =
+        "is not the report of a shard (shard.json is not from diptych); give the folders that --shard I/N "
+        "wrote";
+    EXPECT_EQ(put("/schema", "2"), foreign);
+    EXPECT_EQ(put("/software", "\"other\""), foreign);
+    for (const auto& [at, value] : {std::pair{"/shard/count", "0"},
+                                    {"/shard/count", "1000000000"},
+                                    {"/shard/index", "0"},
+                                    {"/shard/index", "4"},
+                                    {"/items/0/2", "4"},
+                                    {"/items/0/2", "0"}})
+        EXPECT_NE(put(at, value), "") << at << value;
+    EXPECT_TRUE(put("/items/1/1", "\"a/\"").ends_with("uses the folder of another scene"));
+    for (const char* folder_name : {"b", "../b/", "/b/", "b/c/d\\n/"})
+        EXPECT_TRUE(put("/items/1/1", std::string("\"") + folder_name + "\"")
+                        .ends_with(" is not a folder name of diptych"))
+            << folder_name;
+}
+
+// The scenes of a command by their place, and those of one shard.
+TEST(Shards, ItemsAreThoseOfTheCommand) {
+    const fs::path root = folder();
+    std::ofstream(root / "a.gltf") << R"({"buffers":[{"uri":"a%20b.bin"},{"uri":"data:,x"}]})";
+    std::ofstream(root / "a b.bin") << "12345";
+    const std::string a = (root / "a.gltf").string();
+    const std::vector<std::string> scenes{a, "builtin:gallery", "builtin:spheres"};
+    const SceneItems all = itemsOf(scenes, true, "", {});
+    ASSERT_EQ(all.all.size(), 3u);
+    EXPECT_EQ(all.mine.size(), 3u);
+    EXPECT_EQ(all.shard, (Shard{1, 1}));
+    auto listed = nlohmann::ordered_json::array();
+    listed.push_back(nlohmann::ordered_json::array({a, fs::file_size(a) + 5}));
+    listed.push_back(nlohmann::ordered_json::array({"builtin:gallery", 0}));
+    listed.push_back(nlohmann::ordered_json::array({"builtin:spheres", 0}));
+    EXPECT_EQ(all.plan, (nlohmann::ordered_json{{"shards", 1}, {"scenes", listed}}));
+    EXPECT_EQ(partOf({"a", "a-1/", 1}), "a-1-scene");
+    EXPECT_EQ(partOf({"a", "", 1}), "scene");
+    for (const Item& item : itemsOf(scenes, false, "", {}).all) EXPECT_EQ(item.folder, "");
+    std::vector<std::string> once;
+    for (const char* shard : {"1/2", "2/2"}) {
+        const SceneItems part = itemsOf(scenes, true, shard, {});
+        EXPECT_EQ(part.plan["shards"], 2);
+        for (const Item* item : part.mine) {
+            EXPECT_EQ(item->shard, part.shard.index);
+            once.push_back(item->scene);
+        }
+    }
+    std::ranges::sort(once);
+    EXPECT_EQ(once, scenes);
+    const nlohmann::ordered_json stamp = stampOf(a);
+    EXPECT_EQ(stamp["scene"], a);
+    ASSERT_EQ(stamp["files"].size(), 2u);
+    EXPECT_EQ(stamp["files"][1][0], (root / "a b.bin").string());
+    EXPECT_EQ(stamp["files"][1][1], 5);
+    fs::remove(root / "a b.bin");
+    EXPECT_EQ(stampOf(a)["files"][1], (nlohmann::ordered_json{(root / "a b.bin").string(), nullptr}));
+}
+
+// A scene's own fault lets others go on; the machine's ends the command.
+TEST(Shards, OnlyAScenesOwnFaultIsItsError) {
+    EXPECT_FALSE(attempt("a", [] {}));
+    const std::optional<SceneError> error = attempt("a", [] { throw std::runtime_error("is cut short"); });
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->scene, "a");
+    EXPECT_EQ(error->message, "is cut short");
+    EXPECT_THROW(attempt("a", [] { throw std::system_error(28, std::generic_category()); }),
+                 std::system_error);
+    EXPECT_THROW(attempt("a", [] { throw std::logic_error("ours"); }), std::logic_error);
 }
 
 TEST(Shards, OfSeveralCommandsMostFoldersDecideThenTheFirst) {

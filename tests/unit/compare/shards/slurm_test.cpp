@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 namespace diptych::shards {
 namespace {
@@ -49,6 +50,63 @@ TEST(SlurmSubmission, TheMergeWaitsForTheArray) {
     EXPECT_EQ(contentsOf(root / "log"), "--parsable --partition=long " + scripts +
                                             "/array.sh\n--parsable --dependency=afterany:7 " + scripts +
                                             "/merge.sh\n");
+}
+
+// Both scripts, whole: words of /bin/sh and of #SBATCH lines are quoted by different rules.
+TEST(SlurmSubmission, ScriptsAreWhole) {
+    SlurmJob job{
+        "/opt/my diptych", "/home/it's", {"compare", "a b.glb", "--size", "8x8"}, "100%/report", 2, 0, {}};
+    EXPECT_EQ(slurmFolder("a/report/"), "a/report.slurm");
+    EXPECT_EQ(
+        arrayScript(job),
+        "#!/bin/sh\n"
+        "#SBATCH --job-name=diptych-compare\n"
+        "#SBATCH --output=\"100%%/report.slurm/shard-%a.log\"\n"
+        "#SBATCH --array=1-2\n"
+        "#SBATCH --requeue\n"
+        "#SBATCH --open-mode=append\n"
+        "# Exit code 1 is a difference beyond tolerance, which the merged report shows. Slurm calls such "
+        "a task\n# failed, too.\n"
+        "cd '/home/it'\\''s' || exit 2\n"
+        "exec '/opt/my diptych' compare --shard slurm/2 -o 100%/report.slurm/shard-"
+        "\"$SLURM_ARRAY_TASK_ID\" 'a b.glb' --size 8x8\n");
+    EXPECT_EQ(mergeScript(job),
+              "#!/bin/sh\n"
+              "#SBATCH --job-name=diptych-merge\n"
+              "#SBATCH --output=\"100%%/report.slurm/merge.log\"\n"
+              "#SBATCH --requeue\n"
+              "#SBATCH --open-mode=append\n"
+              "cd '/home/it'\\''s' || exit 2\n"
+              "exec '/opt/my diptych' merge 100%/report.slurm/shard-1 100%/report.slurm/shard-2 -o "
+              "100%/report\n");
+    job.at_once = 1;
+    EXPECT_NE(arrayScript(job).find("#SBATCH --array=1-2%1\n"), std::string::npos);
+    for (const std::string name : {"a\"b", "a\\b", "a\nb", "a\tb"}) {
+        job.out = name;
+        EXPECT_EQ(
+            faultOf([&] { arrayScript(job); }),
+            "-o " + name +
+                ".slurm: a Slurm script cannot write a log to such a folder; use a name without quotes, "
+                "backslashes, line breaks and control characters");
+        EXPECT_NE(faultOf([&] { mergeScript(job); }), "");
+    }
+}
+
+// The job's number is the last line; without it, what sbatch printed is the error.
+TEST(SlurmSubmission, WhatSbatchPrintsIsTheError) {
+    const std::filesystem::path root = folder();
+    for (const auto& [script, fault] : {std::pair{"exit 1", "sbatch: failed without a message"},
+                                        {"echo; exit 0", "sbatch: failed without a message"},
+                                        {"echo no such partition; echo; exit 1", "sbatch: no such partition"},
+                                        {"echo 7 jobs", "sbatch: 7 jobs"},
+                                        {"echo 7; echo a warning", "sbatch: 7\na warning"}}) {
+        const FakeSbatch sbatch(script);
+        EXPECT_EQ(faultOf([&] { submit(jobBelow(root)); }), fault) << script;
+    }
+    const FakeSbatch sbatch("echo 7");
+    ::setenv("PATH", (root / "empty").c_str(), 1);
+    EXPECT_EQ(faultOf([&] { submit(jobBelow(root)); }),
+              "sbatch: No such file or directory; it comes with Slurm (Debian: slurm-client)");
 }
 
 // sbatch sends a signal while its output is read, and another while its end is awaited.
