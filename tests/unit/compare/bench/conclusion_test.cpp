@@ -81,6 +81,61 @@ TEST(BenchConclusion, IsOfEachSizeAndLightCount) {
     EXPECT_EQ(all[1].pass, "");
 }
 
+// Passes of one name are one; of two that differ alike, the first by name. What is only in the faster row
+// does not count.
+TEST(BenchConclusion, ThePassIsTheOneThatCostsMostMore) {
+    const auto passOf = [](std::vector<PassTime> fast, std::vector<PassTime> slow) {
+        Bench bench;
+        bench.rows = {timed("deferred", "tiled", Times(6, 10), std::move(fast)),
+                      timed("forward_plus", "tiled", Times(6, 20), std::move(slow))};
+        const Conclusion c = conclusionsOf(bench).at(0);
+        const std::string text = c.describe();
+        const std::size_t from = text.find("confidence)");
+        return text.substr(from + 11);
+    };
+    EXPECT_EQ(passOf({{"a", 1}, {"b", 0.5}}, {{"a", 2}, {"b", 1}, {"a", 1}, {"b", 2}}),
+              "; the pass that differs most is b: 0.5 ms against 3 ms");
+    EXPECT_EQ(passOf({{"b", 1}, {"a", 2}}, {{"b", 2}, {"a", 3}}),
+              "; the pass that differs most is a: 2 ms against 3 ms");
+    EXPECT_EQ(passOf({{"a", 4}, {"b", 1}}, {{"b", 1000.4}}),
+              "; the pass that differs most is b: 1 ms against 1000 ms");
+    EXPECT_EQ(passOf({{"a", 4}, {"b", 1}}, {{"b", 1}, {"a", 3}}), "") << "none takes longer";
+}
+
+TEST(BenchConclusion, WhereNothingDiffersItSaysSo) {
+    Bench bench;
+    bench.rows = {timed("deferred", "clustered", {10, 12, 10, 9, 13, 10}, {{"a", 10}}, "64x48", 1),
+                  timed("forward_plus", "clustered", {11, 11, 11, 11, 11, 11}, {{"b", 11}}, "64x48", 1)};
+    EXPECT_EQ(
+        conclusionsOf(bench).at(0).describe(),
+        "64x48, 1 light: deferred (clustered) takes 10 ms, forward_plus (clustered) takes 1.10 times as "
+        "long (median ratio of 6 interleaved frame pairs; 0.85 to 1.22 at 96.9 % confidence); no "
+        "significant difference, more --runs may help");
+    for (BenchRow& row : bench.rows) row.ms.resize(1);
+    EXPECT_EQ(
+        conclusionsOf(bench).at(0).describe(),
+        "64x48, 1 light: deferred (clustered) takes 10 ms, forward_plus (clustered) takes 1.10 times as "
+        "long (median ratio of 1 interleaved frame pair; 1.10 to 1.10 at 0.0 % confidence); no "
+        "significant difference, more --runs may help");
+}
+
+// Rows of other parts show other images. Growth and layers have sentences of their own.
+TEST(BenchConclusion, ComparesRowsOfEqualParts) {
+    Bench bench = oneCount();
+    bench.rows[0].parts.transparency = Transparency::off;
+    ASSERT_EQ(conclusionsOf(bench).size(), 1u);
+    EXPECT_EQ(conclusionsOf(bench)[0].faster->settings.assign, Assignment::tiled);
+    bench.rows[2].parts.transparency = Transparency::off;
+    ASSERT_EQ(conclusionsOf(bench).size(), 1u) << "tiled and per_object are alone";
+    for (const auto& [table, count] : {std::pair{BenchTable::modes, 1u},
+                                       {BenchTable::msaa, 1u},
+                                       {BenchTable::growth, 0u},
+                                       {BenchTable::layers, 0u}}) {
+        bench.options.table = table;
+        EXPECT_EQ(conclusionsOf(bench).size(), count);
+    }
+}
+
 TEST(BenchConclusion, StandsInTableJsonAndPage) {
     const Bench bench = oneCount();
     const std::string text = conclusionsOf(bench)[0].describe();

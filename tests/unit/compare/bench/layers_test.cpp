@@ -233,6 +233,111 @@ TEST(BenchLayers, TextPageJsonAndPlotHaveTheTable) {
     EXPECT_EQ(countOf(plot, "deferred by forward, 25 % coated: 26 (26 to 26) ms"), 1u);
 }
 
+// One row with registers, and one whose way alone was timed.
+Bench smallLayerBench() {
+    Bench bench;
+    bench.scene = "layers";
+    bench.options.table = BenchTable::layers;
+    addWays(bench, {"coated", 5}, 1, {always(10), always(1400), {}});
+    addWays(bench, {}, 64, {{}, {}, always(3)});
+    bench.rows[0].registers = {{"shade", 64, 96}, {"transmission", 48, 48}};
+    return bench;
+}
+
+TEST(BenchLayers, TextIsWhole) {
+    Bench bench = smallLayerBench();
+    bench.compiler = "a GPU";
+    EXPECT_EQ(benchEnd(bench),
+              "Where each way is the fastest\n"
+              "  forward_plus is the fastest in 1 of 2 rows (the next takes up to 140.00 times as long: 5 % "
+              "coated, 1 light): 5 % coated under 1 light\n"
+              "  forward_plus stores 4 bytes per pixel of depth; all its images 20\n"
+              "  deferred by G-buffer stores 28 bytes per pixel of G-buffer and depth; all its images 44\n"
+              "  deferred by forward stores 24 bytes per pixel of G-buffer and depth; all its images 40\n"
+              "                                                    forward_plus                              "
+              "      deferred by G-buffer                            deferred by forward              \n"
+              "covered     lights  fastest       ms (min to max)  B/pixel  all B/pixel         VGPRs      ms "
+              "(min to max)  B/pixel  all B/pixel  VGPRs  ms (min to max)  B/pixel  all B/pixel  VGPRs\n"
+              "5 % coated       1  forward_plus    10 (10 to 10)        4           20  64 to 96; 48  1400 "
+              "(1400 to 1400)       28           44      -                -        -            -      -\n"
+              "no layers       64  -                           -        -            -             -         "
+              "           -        -            -      -       3 (3 to 3)       24           40      -\n"
+              "B/pixel: of G-buffer and depth, and of all images of the picture's size; fastest: by a sign "
+              "test of frames of the same round; "
+              "VGPRs: vector registers per lane of the pipelines that shade, pass after pass, by the "
+              "compiler of a GPU\n");
+    const std::string page = benchHtml(bench);
+    for (const char* part : {"<div class=\"box says\"><ul><li>forward_plus is the fastest",
+                             "rows\"><table><thead>", "<p class=\"soft small\">B/pixel: of G-buffer"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+}
+
+TEST(BenchLayers, JsonIsWhole) {
+    Bench bench = smallLayerBench();
+    bench.compiler = "a GPU";
+    nlohmann::ordered_json json = benchJson(bench)["layers"];
+    EXPECT_EQ(json["words"], layersText(bench));
+    json.erase("words");
+    EXPECT_EQ(json.dump(),
+              R"({"compiler":"a GPU","rows":[{"covered":"coated","percent":5,"lights":1,"ways":[)"
+              R"({"name":"forward_plus","ms":{"median":10.0,"min":10.0,"max":10.0},"bytes_per_pixel":4,)"
+              R"("image_bytes_per_pixel":20,"registers":[{"pass":"shade","least":64.0,"most":96.0},)"
+              R"({"pass":"transmission","least":48.0,"most":48.0}]},)"
+              R"({"name":"deferred by G-buffer","ms":{"median":1400.0,"min":1400.0,"max":1400.0},)"
+              R"("bytes_per_pixel":28,"image_bytes_per_pixel":44,"registers":[]}],)"
+              R"("fastest":["forward_plus"],"lead":140.0},)"
+              R"({"covered":"","percent":0,"lights":64,"ways":[)"
+              R"({"name":"deferred by forward","ms":{"median":3.0,"min":3.0,"max":3.0},"bytes_per_pixel":24,)"
+              R"("image_bytes_per_pixel":40,"registers":[]}],"fastest":[],"lead":0.0}]})");
+}
+
+// Rows of a table stand together; the same cover and lights later on are another row.
+TEST(BenchLayers, ARowEndsWhereCoverOrLightsChange) {
+    Bench bench;
+    bench.options.table = BenchTable::layers;
+    for (const auto& [cover, lights] : {std::pair{Cover{"woven", 5}, 1u},
+                                        {Cover{"woven", 5}, 1u},
+                                        {Cover{"woven", 25}, 1u},
+                                        {Cover{"glass", 25}, 1u},
+                                        {Cover{"glass", 25}, 64u}})
+        addWays(bench, cover, lights, {always(1), always(2), {}});
+    EXPECT_EQ(layerRows(bench).size(), 4u);
+    bench.rows[0].cover.reset();
+    EXPECT_EQ(layerRows(bench).size(), 4u) << "of no cover, no row";
+    // Three ways with one leader: the lead is over the nearest. A doubtful difference is none.
+    Bench lead;
+    lead.options.table = BenchTable::layers;
+    addWays(lead, {}, 1, {always(15), always(10), {11, 12, 11, 10, 11, 11}});
+    const LayerRow row = layerRows(lead).at(0);
+    EXPECT_EQ(row.fastest, (std::vector<std::size_t>{1, 2})) << "one frame was as fast";
+    EXPECT_DOUBLE_EQ(row.lead, 1.5);
+    EXPECT_EQ(row.fastestNames(), (std::vector<std::string>{"deferred by G-buffer", "deferred by forward"}));
+}
+
+TEST(BenchLayers, AllCasesAreInThisOrder) {
+    const BenchCases cases = makeBenchCases("", Settings(), layerOptions({"--light-counts", "2,3"}));
+    std::vector<std::string> scenes;
+    for (const BenchGroup& group : cases.groups) scenes.push_back(group.scene);
+    std::vector<std::string> expected{"builtin:covered?lights=2", "builtin:covered?lights=3"};
+    for (const char* kind : {"coated", "woven", "brushed", "glass"})
+        for (const char* percent : {"5", "25", "100"})
+            for (const char* lights : {"2", "3"})
+                expected.push_back("builtin:covered?" + std::string(kind) + "=" + percent +
+                                   "&lights=" + lights);
+    EXPECT_EQ(scenes, expected);
+    Settings requested;
+    requested.layers = Layers::forward;
+    requested.size = {6, 4};
+    for (const BenchGroup& group :
+         makeBenchCases("", requested, layerOptions({"--paths", "deferred"})).groups) {
+        ASSERT_EQ(group.settings.size(), 2u) << "both ways, whatever was requested";
+        EXPECT_EQ(group.settings[0].layers, Layers::gbuffer);
+        EXPECT_EQ(group.settings[1].layers, Layers::forward);
+        EXPECT_EQ(group.settings[1].size, (Size{6, 4}));
+        EXPECT_FALSE(group.growth);
+    }
+}
+
 TEST(BenchLayers, RegistersAreThoseOfPassesThatShade) {
     PipelineRequest request{.pass = "shade layers"};
     EXPECT_FALSE(shades(request)) << "it evaluates no light";

@@ -188,5 +188,83 @@ TEST(BenchSamples, ConclusionsCompareOneNumberOfSamples) {
         << all[2].describe();
 }
 
+// One table: two lines, of which one was timed with four samples alone.
+Bench smallSampledBench() {
+    Bench bench;
+    bench.scene = "builtin:glass";
+    bench.runs = 3;
+    bench.options.table = BenchTable::msaa;
+    bench.rows = {sampledRow(Path::deferred, Transparency::off, 4, 20, 128),
+                  sampledRow(Path::forward_plus, Transparency::list, 1, 9, 4),
+                  sampledRow(Path::forward_plus, Transparency::list, 4, 1234, 16)};
+    for (BenchRow& row : bench.rows) row.ms.clear();
+    return bench;
+}
+
+TEST(BenchSamples, TextIsWhole) {
+    EXPECT_EQ(benchEnd(smallSampledBench()),
+              "Samples per pixel: builtin:glass, 64x48, 4 lights\n"
+              "                                                   1 sample                                   "
+              "      4 samples                      \n"
+              "                                 ms (min to max)  lighting ms      MiB  B/pixel      ms (min "
+              "to max)  lighting ms      MiB  B/pixel\n"
+              "deferred, opaque only                          -            -        -        -        20 (19 "
+              "to 22)           11   0.4219      128\n"
+              "forward_plus, transparency list      9 (8 to 11)          5.5  0.05859        4  1234 (1233 "
+              "to 1236)          618  0.09375       16\n"
+              "deferred stores 32 B of G-buffer and depth per sample with 4 samples per pixel: 253 MiB at "
+              "1920x1080\n"
+              "forward_plus stores 4, 4 B of depth per sample with 1, 4 samples per pixel: 8, 32 MiB at "
+              "1920x1080\n");
+    const std::string page = benchHtml(smallSampledBench());
+    EXPECT_NE(page.find("<h2>Samples per pixel: builtin:glass, 64x48, 4 lights</h2>\n<div class=\"box scroll "
+                        "rows\"><table><thead><tr>"),
+              std::string::npos);
+    EXPECT_NE(page.find("4 samples</th></tr>"), std::string::npos);
+    EXPECT_NE(page.find("<p class=\"soft\">deferred stores 32 B"), std::string::npos);
+}
+
+TEST(BenchSamples, JsonIsWhole) {
+    const nlohmann::ordered_json tables = benchJson(smallSampledBench())["msaa_tables"];
+    const auto cell = [](const char* samples, const char* ms, const char* rest) {
+        return "{\"samples\":" + std::string(samples) + ",\"ms\":{" + ms + "}," + rest + "}";
+    };
+    EXPECT_EQ(
+        tables.dump(),
+        R"([{"scene":"builtin:glass","size":[64,48],"lights":4,"columns":[1,4],"rows":[)"
+        R"({"name":"deferred, opaque only","path":"deferred","transparency":"off","cells":[)" +
+            cell("4", R"("median":20.0,"min":19.0,"max":22.0)",
+                 R"("lighting_ms":11.0,"image_mib":0.421875,"bytes_per_pixel":128,"bytes_per_sample":32)") +
+            R"(]},{"name":"forward_plus, transparency list","path":"forward_plus","transparency":"list",)"
+            R"("cells":[)" +
+            cell("1", R"("median":9.0,"min":8.0,"max":11.0)",
+                 R"("lighting_ms":5.5,"image_mib":0.05859375,"bytes_per_pixel":4,"bytes_per_sample":4)") +
+            "," +
+            cell("4", R"("median":1234.0,"min":1233.0,"max":1236.0)",
+                 R"("lighting_ms":618.0,"image_mib":0.09375,"bytes_per_pixel":16,"bytes_per_sample":4)") +
+            R"(]}],"memory":["deferred stores 32 B of G-buffer and depth per sample with 4 samples per pixel: 253 )"
+            R"(MiB at 1920x1080","forward_plus stores 4, 4 B of depth per sample with 1, 4 samples per pixel: )"
+            R"(8, 32 MiB at 1920x1080"]}])");
+}
+
+// A size, a scene and a light count have tables of their own; what differs otherwise is a line.
+TEST(BenchSamples, EachSizeSceneAndLightCountHasATable) {
+    Bench bench = smallSampledBench();
+    bench.rows.resize(4, bench.rows[0]);
+    bench.rows[1].settings.size.width = 65;
+    bench.rows[2].scene = "builtin:hall";
+    bench.rows[3].measured[Measure::lights] = 5;
+    bench.rows.push_back(bench.rows[0]);
+    bench.rows.back().settings.path = Path::forward_plus;
+    const std::vector<SampleTable> tables = sampleTables(bench);
+    ASSERT_EQ(tables.size(), 4u);
+    EXPECT_EQ(tables[0].lines.size(), 2u);
+    EXPECT_EQ(tables[1].size, (Size{65, 48}));
+    EXPECT_EQ(tables[2].scene, "builtin:hall");
+    EXPECT_EQ(tables[2].columns, std::set{4});
+    EXPECT_EQ(tables[3].lights, 5u);
+    EXPECT_EQ(tables[3].lines.at(0).cells.at(4), &bench.rows[3]);
+}
+
 }  // namespace
 }  // namespace diptych
