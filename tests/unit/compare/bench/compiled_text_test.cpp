@@ -103,9 +103,9 @@ TEST(CompiledText, JsonHasAllStatistics) {
         R"({"shader":"capture.comp","subgroup_size":32,"cost":{"vgprs":8.0,"occupancy":16.0,)"
         R"("inverse_throughput":7.0},"statistics":{"VGPRs":1.0,"Colour":2.0}}]}],"features":[{"feature":)"
         R"("haze","pass":"shade","shader":"a.frag","with":{"vgprs":80.0,"occupancy":8.0,)"
-        R"("inverse_throughput":900.0},"without":{"vgprs":72.0,"occupancy":10.0,"inverse_throughput":900.0}}],)"
-        R"("errors":["an error"],"warnings":["a spill"]},{"path":"forward_plus","pipelines":[{"pass":"depth",)"
-        R"("captures":false,"name":"name","variant":"a variant","shaders":[],"error":"no memory"}],)"
+        R"("inverse_throughput":900.0},"without":{"vgprs":72.0,"occupancy":10.0,"inverse_throughput":900.0)"
+        R"(}}],"errors":["an error"],"warnings":["a spill"]},{"path":"forward_plus","pipelines":[{"pass":)"
+        R"("depth","captures":false,"name":"name","variant":"a variant","shaders":[],"error":"no memory"}],)"
         R"("features":[],"errors":[],"warnings":[]}]})");
 }
 

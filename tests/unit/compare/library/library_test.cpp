@@ -131,5 +131,75 @@ TEST(Library, EveryFigureHasAMeaning) {
     EXPECT_EQ(meaningOf("flop"), "");
 }
 
+// Every size that does not fit its values, and what it said.
+TEST(Library, APictureHasThreeValuesPerPixel) {
+    const std::vector<float> values(12, 0.5f);
+    const Picture square{2, 2, values};
+    const auto fault = [&](const Picture& reference, const Picture& test) {
+        return faultOf([&] { compare(reference, test); });
+    };
+    for (const auto& [width, height] : {std::pair{0, 2}, {2, 0}, {-2, -2}, {1, 2}, {2, 3}}) {
+        const std::string rest = " is " + std::to_string(width) + "x" + std::to_string(height) +
+                                 " and has 12 values; give 3 per pixel";
+        EXPECT_EQ(fault({width, height, values}, square), "the reference" + rest);
+        EXPECT_EQ(fault(square, {width, height, values}), "the test" + rest);
+    }
+    EXPECT_EQ(fault({4, 1, values}, square),
+              "the reference is 4x1 and the test is 2x2: images must have the same size");
+    EXPECT_EQ(fault({2, 1, std::span(values).first(6)}, square),
+              "the reference is 2x1 and the test is 2x2: images must have the same size");
+    EXPECT_EQ(fault({1, 4, values}, {1, 4, values}), "");
+}
+
+// The first of the largest; only covered pixels count, of which any value but 0 is one.
+TEST(Library, TheWorstPixelIsCovered) {
+    constexpr int width = 9, height = 7;
+    std::vector<float> a(3 * width * height, 0.5f), b = a;
+    const auto at = [](int x, int y) { return static_cast<std::size_t>(y * width + x); };
+    for (const auto& [x, y] : {std::pair{8, 1}, {2, 5}})
+        for (std::size_t c = 0; c < 3; ++c) b[3 * at(x, y) + c] = std::numeric_limits<float>::quiet_NaN();
+    Result result = compare({width, height, a}, {width, height, b});
+    EXPECT_EQ(result.worst_x, 8);
+    EXPECT_EQ(result.worst_y, 1);
+    EXPECT_EQ(result.flip[at(2, 5)], 1);
+    EXPECT_EQ(result.compared, static_cast<std::size_t>(width * height));
+    EXPECT_TRUE(result.outcomes.empty());
+    EXPECT_FALSE(result.passed) << "a NaN in one image alone";
+    std::vector<std::uint8_t> covered(width * height, 255);
+    covered[at(8, 1)] = 0;
+    Options options;
+    options.covered = covered;
+    result = compare({width, height, a}, {width, height, b}, options);
+    EXPECT_EQ(result.worst_x, 2);
+    EXPECT_EQ(result.worst_y, 5);
+    EXPECT_EQ(result.compared, static_cast<std::size_t>(width * height - 1));
+    covered[at(2, 5)] = 0;
+    result = compare({width, height, a}, {width, height, b}, options);
+    EXPECT_EQ(result.worst_x, -1);
+    EXPECT_TRUE(result.passed);
+}
+
+// A limit is kept by what equals it; one that fails makes all fail, wherever it stands.
+TEST(Library, ALimitIncludesItsValue) {
+    const std::vector<float> a(12, 0.5f);
+    std::vector<float> b = a;
+    b[4] = 0.75f;
+    Options options;
+    options.limits = {{"max", 0.25}};
+    EXPECT_TRUE(compare({2, 2, a}, {2, 2, b}, options).passed);
+    options.limits = {{"max", 0.2499}, {"max", 1}};
+    const Result result = compare({2, 2, a}, {2, 2, b}, options);
+    EXPECT_FALSE(result.passed);
+    EXPECT_EQ(result.outcomes[0].limit.figure, "max");
+    EXPECT_EQ(result.outcomes[0].limit.value, 0.2499);
+    EXPECT_EQ(result.outcomes[0].measured, 0.25);
+    EXPECT_FALSE(result.outcomes[0].holds);
+    EXPECT_TRUE(result.outcomes[1].holds);
+    EXPECT_EQ(Limit().figure, "flip");
+    EXPECT_EQ(Limit().value, 0);
+    EXPECT_EQ(std::ranges::count(version(), '.'), 2) << version();
+    EXPECT_EQ(figureNames().size(), allMetrics().size());
+}
+
 }  // namespace
 }  // namespace diptych::library

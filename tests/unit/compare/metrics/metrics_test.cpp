@@ -2,11 +2,13 @@
 // Statistics of two images, compared with values computed by hand.
 #include "compare/metrics/channel.h"
 #include "shared/contract/debug_mode.h"
+#include "tests/support/errors.h"
 #include "tests/support/nonfinite.h"
 #include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -162,46 +164,6 @@ TEST(Metrics, SizesMustAgree) {
                  std::runtime_error);
 }
 
-Frame ids(PixelData values) {
-    Frame frame;
-    frame.settings.size = {static_cast<int>(values.size()), 1};
-    frame.channels[Channel::material_id] = rowOf(1, std::move(values));
-    return frame;
-}
-
-TEST(Coverage, APixelIsBackgroundOnlyInBoth) {
-    const Coverage c = coverage(ids({-1, -1, 0, 3}), ids({-1, 2, -1, 3}));
-    EXPECT_EQ(c.covered, (std::vector<std::uint8_t>{0, 1, 1, 1}));
-    EXPECT_EQ(c.count, 3u);
-    EXPECT_TRUE(c.known);
-}
-
-TEST(Coverage, DepthTellsWhereThereAreNoIds) {
-    Frame frame;
-    frame.settings.size = {2, 1};
-    frame.channels[Channel::depth] = rowOf(1, {0, 5});
-    EXPECT_EQ(coverage(frame, frame).covered, (std::vector<std::uint8_t>{0, 1}));
-    Frame bare;
-    bare.settings.size = {2, 1};
-    bare.channels[Channel::lit] = rowOf(3, {0, 0, 0, 1, 1, 1});
-    EXPECT_FALSE(coverage(bare, bare).known);
-    EXPECT_EQ(coverage(bare, bare).count, 2u);
-}
-
-TEST(Coverage, AChannelOfAnotherSizeIsAnError) {
-    Frame frame = ids({0, 1});
-    frame.channels[Channel::depth] = rowOf(1, {0, 5, 6});
-    EXPECT_THROW(coverage(frame, frame), std::runtime_error);
-}
-
-TEST(Coverage, BackgroundIsOutsideMeansAndErrors) {
-    const Coverage c = coverage(ids({-1, 1}), ids({-1, 1}));
-    const Image baseline = rowOf(1, {0, 1}), test = rowOf(1, {7, 1.5f});  // 7: background, must not count
-    EXPECT_EQ(channelStats(ErrorKind::absolute, ChannelKind::scalar, baseline, test, c).mean, 0.5);
-    const Image errors = errorImage(ErrorKind::absolute, ChannelKind::scalar, baseline, test, c);
-    EXPECT_EQ(errors.data, (PixelData{0, 0.5f}));
-}
-
 TEST(Metrics, UnequalPixelsSeesBitsOrUlps) {
     const float up = std::nextafter(1.0f, 2.0f);
     EXPECT_EQ(unequalPixels(rowOf(1, {1, 0, nan}), rowOf(1, {1, -0.0f, nan}), 0), 1u) << "-0 is not 0";
@@ -211,6 +173,140 @@ TEST(Metrics, UnequalPixelsSeesBitsOrUlps) {
     EXPECT_EQ(unequalPixels(rowOf(2, {1, 0}), rowOf(2, {1, 17 * 0x1p-23f}), 16), 1u);
     EXPECT_EQ(unequalPixels(rowOf(2, {1, 0}), rowOf(2, {1, 15 * 0x1p-23f}), 16), 0u);
     EXPECT_EQ(unequalPixels(rowOf(1, {1}), rowOf(1, {nan}), 16), 1u);
+}
+
+// Rec.709 for colours of three components; else the length. Of a covered pixel each, in any row.
+TEST(Metrics, TheFloorIsOfCoveredPixelsMagnitudes) {
+    const auto floorOf = [](ChannelKind kind, const Image& baseline, const Coverage& covered) {
+        return PixelError(ErrorKind::relative, kind, baseline, covered).floor();
+    };
+    const double weights[] = {0.2126, 0.7152, 0.0722};
+    for (int c = 0; c < 3; ++c) {
+        Image one(1, 1, 3);
+        one.at(0, 0, c) = -2;
+        EXPECT_NEAR(floorOf(ChannelKind::color, one, everyPixel(1)), 2e-3 * weights[c], 1e-12);
+        EXPECT_DOUBLE_EQ(floorOf(ChannelKind::vector, one, everyPixel(1)), 2e-3);
+    }
+    EXPECT_DOUBLE_EQ(floorOf(ChannelKind::color, rowOf(4, {1, 1, 1, 1}), everyPixel(1)), 2e-3);
+    EXPECT_DOUBLE_EQ(floorOf(ChannelKind::color, rowOf(2, {3, 4}), everyPixel(1)), 5e-3);
+    Image grid(2, 3, 1);
+    grid.data = {1, 2, 4, 8, inf, 32};
+    Coverage some{{0, 1, 1, 0, 1, 1}, 4, true};
+    EXPECT_DOUBLE_EQ(floorOf(ChannelKind::scalar, grid, some), (2.0 + 4 + 32) / 3 * 1e-3);
+    some.covered.assign(6, 0);
+    EXPECT_EQ(floorOf(ChannelKind::scalar, grid, some), 0);
+    EXPECT_EQ(PixelError(ErrorKind::absolute, ChannelKind::scalar, grid, everyPixel(6)).floor(), 0);
+}
+
+TEST(Metrics, WhatCannotBeComparedIsNamed) {
+    const auto why = [](ErrorKind errorKind, const Image& a, const Image& b, std::size_t covered) {
+        return faultOf([&] { channelStats(errorKind, ChannelKind::scalar, a, b, everyPixel(covered)); });
+    };
+    const Image image(3, 2, 1);
+    EXPECT_EQ(why(ErrorKind::absolute, image, Image(2, 2, 1), 6),
+              "images of 3x2x1 and 2x2x1 cannot be compared");
+    EXPECT_EQ(why(ErrorKind::absolute, image, Image(3, 1, 1), 6),
+              "images of 3x2x1 and 3x1x1 cannot be compared");
+    EXPECT_EQ(why(ErrorKind::absolute, image, Image(3, 2, 2), 6),
+              "images of 3x2x1 and 3x2x2 cannot be compared");
+    EXPECT_EQ(why(ErrorKind::absolute, image, image, 5), "images of 3x2x1 and 3x2x1 cannot be compared");
+    EXPECT_EQ(why(ErrorKind::absolute, image, image, 6), "");
+    for (const ErrorKind errorKind : {ErrorKind::angular, ErrorKind::axial}) {
+        EXPECT_EQ(why(errorKind, Image(3, 2, 2), Image(3, 2, 2), 6),
+                  "angles need vectors of 3 components, not 2");
+        EXPECT_EQ(why(errorKind, Image(3, 2, 3), Image(3, 2, 3), 6), "");
+    }
+    EXPECT_NE(faultOf([&] { errorImage(ErrorKind::exact, ChannelKind::id, image, image, everyPixel(5)); }),
+              "");
+    EXPECT_NE(faultOf([&] { unequalPixels(image, Image(3, 1, 1), 0); }), "");
+}
+
+TEST(Metrics, TheWorstIsTheFirstInRowOrder) {
+    Image baseline(3, 2, 1), test(3, 2, 1);
+    test.data = {1, 0, 2, 3, 3, 0};
+    const ChannelStats s =
+        channelStats(ErrorKind::absolute, ChannelKind::scalar, baseline, test, everyPixel(6));
+    EXPECT_EQ(s.worst_x, 0);
+    EXPECT_EQ(s.worst_y, 1);
+    EXPECT_EQ(s.different, 4u);
+    EXPECT_EQ(s.infinite, 0u);
+    EXPECT_DOUBLE_EQ(s.mean, 9.0 / 6);
+    EXPECT_DOUBLE_EQ(s.rmse, std::sqrt(23.0 / 6));
+    const auto names = s.byName();
+    const std::pair<const char*, double> expected[] = {
+        {"max", s.max}, {"mean", s.mean}, {"rmse", s.rmse}, {"p99", s.p99}, {"p999", s.p999}};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        EXPECT_STREQ(names[i].first, expected[i].first);
+        EXPECT_EQ(names[i].second, expected[i].second);
+    }
+    EXPECT_EQ(channelStats(ErrorKind::absolute, ChannelKind::scalar, test, test, everyPixel(6)).worst_x, -1);
+    EXPECT_EQ(ChannelStats().worst_y, -1);
+}
+
+// Ranks count what is equal: of 1000, the 990th is the last zero, the 999th the ninth of ten others.
+TEST(Metrics, RanksBeginAtTheZeros) {
+    PixelData baseline(1000, 0.0f), test(1000, 0.0f);
+    for (std::size_t i = 0; i < 10; ++i) test[100 * i] = static_cast<float>(10 - i);
+    ChannelStats s = scalars(ErrorKind::absolute, baseline, test);
+    EXPECT_EQ(s.p99, 0);
+    EXPECT_EQ(s.p999, 9);
+    test[1] = 0.5f;
+    s = scalars(ErrorKind::absolute, baseline, test);
+    EXPECT_EQ(s.p99, 0.5);
+    EXPECT_EQ(s.p999, 9);
+}
+
+// More errors with the same leading bits than are gathered at once: steps between 1 and 1 + 1/16, each twice.
+TEST(Metrics, RanksAreExactAmongAMillion) {
+    const Image baseline(1024, 1025, 1);
+    Image test = baseline;
+    const std::size_t n = test.pixels(), steps = 1 << 19, more = n / 2 - steps;
+    for (std::size_t i = 0; i < n; ++i)
+        test.data[i * 617 % n] = 1 + 0x1p-23f * static_cast<float>(i / 2 % steps);
+    const ChannelStats s =
+        channelStats(ErrorKind::absolute, ChannelKind::scalar, baseline, test, everyPixel(n));
+    // The lowest `more` steps stand there four times.
+    const auto rank = [&](double fraction) {
+        const double below = std::ceil(fraction * static_cast<double>(n)) - 1 - 4 * static_cast<double>(more);
+        return 1 + 0x1p-23 * (static_cast<double>(more) + std::floor(below / 2));
+    };
+    EXPECT_EQ(s.p99, rank(0.99));
+    EXPECT_EQ(s.p999, rank(0.999));
+}
+
+// Equal NaNs are no difference, but there is no angle beside them.
+TEST(Metrics, AnAngleNeedsNumbers) {
+    for (const ErrorKind errorKind : {ErrorKind::angular, ErrorKind::axial}) {
+        EXPECT_EQ(largest(errorKind, {nan, 1, 0}, {nan, 0.5f, 0}), infinity);
+        EXPECT_EQ(largest(errorKind, {nan, 1, 0}, {nan, 1, 0}), 0);
+    }
+    EXPECT_EQ(largest(ErrorKind::absolute, {nan, 1, 0}, {nan, 0.5f, 0}), 0.5);
+    EXPECT_EQ(largest(ErrorKind::exact, {nan, 1, 0}, {nan, 0.5f, 0}), 1);
+    EXPECT_EQ(largest(ErrorKind::relative, {inf, 2, 0}, {inf, 1, 0}), 0.5) << "of the largest finite one";
+}
+
+TEST(Metrics, AnErrorBeyondFloatsIsInfiniteInItsImage) {
+    constexpr float most = std::numeric_limits<float>::max();
+    const Image errors = errorImage(ErrorKind::absolute, ChannelKind::scalar, rowOf(1, {0, most, 1, nan}),
+                                    rowOf(1, {most, -most, 1.5f, 0}), everyPixel(4));
+    EXPECT_EQ(errors.data, (PixelData{most, inf, 0.5f, inf}));
+}
+
+TEST(Metrics, UnequalPixelsCountOnceFromTheSeventeenthStepOn) {
+    constexpr float step = 0x1p-23f;
+    EXPECT_EQ(unequalPixels(rowOf(2, {1, 0}), rowOf(2, {1, 16 * step}), 16), 0u) << "just as many";
+    EXPECT_EQ(unequalPixels(rowOf(2, {1, 0}), rowOf(2, {1, 16.5f * step}), 16), 1u);
+    EXPECT_EQ(unequalPixels(rowOf(2, {0, 1}), rowOf(2, {2, 1}), 0), 1u);
+    EXPECT_EQ(unequalPixels(rowOf(2, {0, 1, 4, 4}), rowOf(2, {2, 3, 4, 5}), 0), 2u)
+        << "pixels, not components";
+    EXPECT_EQ(unequalPixels(rowOf(1, {nan}), rowOf(1, {1}), 0), 1u);
+    EXPECT_EQ(unequalPixels(rowOf(1, {nan}), rowOf(1, {-nan}), 0), 0u);
+    EXPECT_EQ(unequalPixels(rowOf(1, {2}), rowOf(1, {2 + 3 * step}), 1), 1u);
+    EXPECT_EQ(unequalPixels(rowOf(1, {2}), rowOf(1, {2 + 2 * step}), 1), 0u) << "of the larger one";
+    EXPECT_EQ(gpuUlps, 16);
+    const Image one = onePixel(rowOf(2, {1, 2, 3, 4}), 1);
+    EXPECT_EQ(one.width * one.height, 1);
+    EXPECT_EQ(one.data, (PixelData{3, 4}));
 }
 
 }  // namespace

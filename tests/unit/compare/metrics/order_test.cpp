@@ -93,5 +93,33 @@ TEST(Order, ThreadsDoNotChangeTheSum) {
     EXPECT_EQ(Order(values).sum(), many.sum());
 }
 
+// Several parts, and values that come in pieces.
+TEST(Order, RanksAndQuantilesDoNotDependOnParts) {
+    const std::vector<float> values = mixed(300007);
+    std::vector<float> sorted = values;
+    std::ranges::sort(sorted);
+    const Order order(values.size(), [&](std::size_t from, std::size_t to, const Order::Use& use) {
+        for (; from < to; from += 1000)
+            use(std::span(values).subspan(from, std::min<std::size_t>(1000, to - from)));
+    });
+    EXPECT_EQ(order.size(), values.size());
+    const std::vector<double> fractions{0.75, 0.0, 0.7499, 1.0, 0.5, 0.75};
+    const std::vector<float> ranks = order.nearestRanks(fractions);
+    for (std::size_t i = 0; i < fractions.size(); ++i) {
+        const auto rank = std::max(1.0, std::ceil(fractions[i] * 300007));
+        EXPECT_EQ(ranks[i], sorted[static_cast<std::size_t>(rank) - 1]) << fractions[i];
+    }
+    EXPECT_EQ(order.weightedQuantile(1), sorted.back());
+    double sum = 0, below = 0;
+    for (const float v : sorted) sum += double{v};
+    EXPECT_NEAR(order.sum() / sum, 1, 1e-12);
+    EXPECT_NEAR(order.mean() * 300007 / sum, 1, 1e-12);
+    std::size_t i = 0;
+    while (below + double{sorted[i]} < 0.3 * sum) below += double{sorted[i++]};
+    EXPECT_EQ(order.weightedQuantile(0.3), sorted[i]);
+    EXPECT_TRUE(order.nearestRanks({}).empty());
+    EXPECT_EQ(Order(std::span<const float>{}).nearestRanks(fractions), std::vector<float>(6, 0.0f));
+}
+
 }  // namespace
 }  // namespace diptych

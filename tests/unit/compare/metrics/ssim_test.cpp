@@ -3,6 +3,7 @@
 #include "compare/metrics/ssim.h"
 
 #include "compare/metrics/standard.h"
+#include "tests/support/errors.h"
 #include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
@@ -145,6 +146,56 @@ TEST(Ssim, OfLinearColoursDoesNotDependOnTheirUnit) {
                 (2 * p * q + c1) / (p * p + q * q + c1), floats);
     EXPECT_LT(ofColors(flat(20, 20, 0, 0, 0), flat(20, 20, 6, 6, 6), Range::linear), 0.1)
         << "a black reference";
+}
+
+// Tasks of 64 rows of windows, bands of 16: none is left out or counted twice.
+TEST(Ssim, TallImagesHaveAllTheirWindows) {
+    for (const int height : {26, 27, 74, 75, 139}) {
+        const Image a = plane(13, height, 11), b = plane(13, height, 12);
+        double sum = 0;
+        for (int y = 5; y < height - 5; ++y)
+            for (int x = 5; x < 8; ++x) sum += window(a, b, x, y);
+        EXPECT_NEAR(ssim(a, b, everywhere(a)).value(), sum / (3 * (height - 10)), floats) << height;
+        // A window in the last row of centres.
+        std::vector<std::uint8_t> last(a.pixels());
+        last[static_cast<std::size_t>(13 * (height - 6) + 7)] = 1;
+        EXPECT_NEAR(ssim(a, b, last).value(), window(a, b, 7, height - 6), floats) << height;
+    }
+    EXPECT_EQ(faultOf([] { ssim(Image(12, 11, 1), Image(12, 11, 1), std::vector<std::uint8_t>(121, 1)); }),
+              "SSIM of 12x11 pixels: 121 coverage values; give one per pixel");
+}
+
+// Black has no mean to scale by: radiance is shown as it is. A mean of almost nothing scales by 1e30 at most.
+TEST(Ssim, ABlackReferenceIsShownAsItIs) {
+    const double q = 1.055 * std::pow(6.0 / 7, 1 / 2.4) - 0.055;
+    EXPECT_NEAR(ofColors(flat(20, 20, 0, 0, 0), flat(20, 20, 6, 6, 6), Range::linear), c1 / (q * q + c1),
+                1e-7);
+    EXPECT_NEAR(ofColors(flat(20, 20, 0, 0, 0), flat(20, 20, -6, -6, -6), Range::linear), 1, floats);
+    const auto srgb = [](double v) { return 1.055 * std::pow(v, 1 / 2.4) - 0.055; };
+    const double p = srgb(0.1 / 1.1), r = srgb(0.2 / 1.2);  // 1e-31 and 2e-31, scaled by 1e30
+    EXPECT_NEAR(
+        ofColors(flat(20, 20, 1e-31f, 1e-31f, 1e-31f), flat(20, 20, 2e-31f, 2e-31f, 2e-31f), Range::linear),
+        (2 * p * r + c1) / (p * p + r * r + c1), floats);
+}
+
+// A pixel that is not finite takes its windows away, in either image and range.
+TEST(Ssim, InfiniteColoursHaveNoWindow) {
+    const Image a = noise(24, 12, 13), b = noise(24, 12, 14);
+    for (const Range range : {Range::display, Range::linear})
+        for (const bool inTest : {false, true})
+            for (const float bad : {inf, -inf, nan}) {
+                Image broken = inTest ? b : a;
+                broken.at(0, 6, 1) = bad;
+                Coverage right = everyPixel(a.pixels());
+                for (std::size_t i = 0; i < a.pixels(); ++i) right.covered[i] = i % 24 > 5;
+                right.count = 18 * 12;
+                const Image &reference = inTest ? a : broken, &test = inTest ? broken : b;
+                const double all = ofColors(reference, test, range);
+                const double without =
+                    standardMetrics(reference, test, ChannelKind::color, range, right).ssim.value();
+                EXPECT_NEAR(all, without, range == Range::display ? 1e-12 : 0.02) << bad;
+                EXPECT_FALSE(std::isnan(all));
+            }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Metrics of two images, compared with values computed by hand.
 #include "compare/metrics/standard.h"
+#include "tests/support/errors.h"
 #include "tests/support/test_images.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace diptych {
 namespace {
@@ -189,6 +191,87 @@ TEST(StandardMetrics, OnlyAlikeImagesAreCompared) {
     const Image five(2, 2, 5);
     EXPECT_THROW(standardMetrics(five, five, ChannelKind::vector, Range::linear, everyPixel(4)),
                  std::runtime_error);
+}
+
+// Bands of 16 rows: what is in the last is as good as in the first. The largest is in the middle.
+TEST(StandardMetrics, EveryBandOfRowsCounts) {
+    Image reference(2, 40, 3), test(2, 40, 3);
+    for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 2; ++x) {
+            reference.at(x, y, 0) = 1;
+            test.at(x, y, 0) = 1;
+        }
+    const auto at = [&](int y, float px, float py) {
+        test.at(1, y, 0) = px;
+        test.at(1, y, 1) = py;
+    };
+    at(0, 1, 1);    // 45 degrees, sqrt(2) long
+    at(15, 0, 2);   // 90 degrees
+    at(16, -4, 0);  // 180 degrees, 4 long
+    at(31, 0, 1);   // 90 degrees
+    at(32, 3, 0);   // another length alone
+    at(39, 1, 1);
+    reference.at(0, 17, 2) = test.at(0, 17, 2) = 7;
+    reference.at(0, 0, 2) = nan;
+    test.at(0, 39, 2) = inf;
+    test.at(0, 33, 2) = inf;
+    Coverage coverage = everyPixel(80);
+    coverage.covered[0] = coverage.covered[78] = coverage.covered[66] = 0;
+    coverage.count = 77;
+    const StandardMetrics m = standardMetrics(reference, test, ChannelKind::vector, Range::linear, coverage);
+    EXPECT_EQ(m.angle_max, 180);
+    EXPECT_DOUBLE_EQ(m.angle_mean, (45.0 + 90 + 180 + 90 + 45) / 77);
+    EXPECT_EQ(m.length_max, 3);
+    EXPECT_EQ(m.different, 6u);
+    EXPECT_EQ(m.pixels, 77u);
+    EXPECT_EQ(m.peak, 7) << "the reference's";
+    EXPECT_EQ(m.nonfinite_reference, 1u) << "covered or not";
+    EXPECT_EQ(m.nonfinite_test, 2u);
+    EXPECT_EQ(m.nonfinite_different, 0u);
+    EXPECT_DOUBLE_EQ(m.mae, (1.0 + 1 + 2 + 5 + 1 + 1 + 2 + 1) / (77 * 3));
+    EXPECT_DOUBLE_EQ(m.mse, (1.0 + 1 + 4 + 25 + 1 + 1 + 4 + 1) / (77 * 3));
+    EXPECT_FALSE(m.ssim.has_value());
+    // An infinite difference anywhere makes them infinite, and is counted in each band.
+    coverage = everyPixel(80);
+    const StandardMetrics all =
+        standardMetrics(reference, test, ChannelKind::vector, Range::linear, coverage);
+    EXPECT_EQ(all.nonfinite_different, 3u);
+    EXPECT_EQ(all.different, 9u);
+    for (const double v : {all.angle_max, all.angle_mean, all.length_max, all.mse, all.relative_max})
+        EXPECT_EQ(v, endless);
+}
+
+TEST(StandardMetrics, LengthsAndLinesByHand) {
+    EXPECT_EQ(vectors({3, 4, 0}, {0, 0, 2}).length_max, 3);
+    EXPECT_EQ(vectors({3, 4, 0, 1, 0, 0}, {0, 0, 2, 0, 0, 9}).length_max, 8);
+    EXPECT_EQ(vectors({nan, 0, 1}, {nan, 0, 1}).length_max, 0);
+    // Two components or scalars have none; a line's angle is the smaller one.
+    EXPECT_EQ(
+        standardMetrics(rowOf(2, {1, 0}), rowOf(2, {0, 2}), ChannelKind::vector, Range::linear, everyPixel(1))
+            .length_max,
+        0);
+    const auto lines = [](const PixelData& a, const PixelData& b) {
+        return standardMetrics(rowOf(3, a), rowOf(3, b), ChannelKind::vector, Range::linear, everyPixel(2),
+                               ErrorKind::axial);
+    };
+    EXPECT_EQ(lines({1, 0, 0, 1, 0, 0}, {-1, 0, 0, 0, 1, 0}).angle_mean, 45);
+    EXPECT_DOUBLE_EQ(lines({1, 0, 0, 1, 0, 0}, {-1, 1, 0, 1, 0, 0}).angle_max, 45);
+}
+
+TEST(StandardMetrics, WhatIsRefusedIsNamed) {
+    const auto why = [](const Image& a, const Image& b, std::size_t covered) {
+        return faultOf(
+            [&] { standardMetrics(a, b, ChannelKind::scalar, Range::linear, everyPixel(covered)); });
+    };
+    const std::string end = " cannot be compared; give two of the same size with 1 to 4 components";
+    EXPECT_EQ(why(Image(3, 2, 1), Image(2, 2, 1), 6), "images of 3x2x1 and 2x2x1" + end);
+    EXPECT_EQ(why(Image(3, 2, 1), Image(3, 1, 1), 6), "images of 3x2x1 and 3x1x1" + end);
+    EXPECT_EQ(why(Image(3, 2, 1), Image(3, 2, 2), 6), "images of 3x2x1 and 3x2x2" + end);
+    EXPECT_EQ(why(Image(3, 2, 5), Image(3, 2, 5), 6), "images of 3x2x5 and 3x2x5" + end);
+    EXPECT_EQ(why(Image(3, 2, 0), Image(3, 2, 0), 6), "images of 3x2x0 and 3x2x0" + end);
+    EXPECT_EQ(why(Image(3, 2, 1), Image(3, 2, 1), 7), "images of 3x2x1 and 3x2x1" + end);
+    for (int components = 1; components <= 4; ++components)
+        EXPECT_EQ(why(Image(3, 2, components), Image(3, 2, components), 6), "");
 }
 
 }  // namespace
