@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The distribution of errors over magnitude and image, and its presentation on the page.
+#include "compare/page/text.h"
+#include "compare/plot/plot.h"
 #include "compare/report/error_metrics.h"
 #include "compare/report/report.h"
 #include "tests/support/files.h"
@@ -189,6 +191,104 @@ TEST(ReportErrors, OnlyAFailingChannelHasItsCommand) {
         << cardOf(page, "roughness");
     EXPECT_EQ(cardOf(page, "albedo").find("<code>"), std::string::npos);
     EXPECT_NE(contentsOf(out / "junit.xml").find("reproduce: " + command + "\n"), std::string::npos);
+}
+
+// Two bins of a decade; the limit splits the bin in which it lies.
+TEST(ReportErrors, TheHistogramIsThePlotOfItsBins) {
+    ChannelDiff c;
+    c.mode = &debugMode(Channel::normals);
+    ChannelImages images;
+    ErrorHistogram& bins = images.histogram;
+    bins = {.first_decade = -1,
+            .bins_per_decade = 2,
+            .bins = {5, 0, 1, 2},
+            .equal = 3,
+            .infinite = 0,
+            .smaller = 4};
+    images.worst = {{1, 2, 9.5}, {3, 0, 0.25}};
+    const double root = std::pow(10.0, 0.5);
+    const auto bar = [](double left, double right, double count, std::size_t part, const std::string& text,
+                        bool beyond = false) {
+        return PlotBar{{left, right}, {0, count}, part, text, beyond};
+    };
+    const std::string first = "0.1\u00b0 to 0.316\u00b0: 5 pixels, 4 of them below",
+                      third = "1\u00b0 to 3.16\u00b0: 1 pixel", last = "3.16\u00b0 to 10\u00b0: 2 pixels";
+    const auto expected = [&](const std::vector<PlotBar>& bars, const std::string& limit, double at,
+                              const std::string& text, const std::string& across = "angle, \u00b0") {
+        PlotPanel panel{.across = {.name = across, .shown = {0.1, 10}},
+                        .up = {.name = "pixels", .shown = {1}}};
+        panel.bars = bars;
+        if (!limit.empty()) panel.limits = {{.x = at, .name = limit}};
+        return "<div class=\"spread\"><figure class=\"histogram\">" +
+               svgOf({.title = "histogram of error", .panels = {panel}, .height = 240}, PlotTarget::page) +
+               "<figcaption>" + text + "</figcaption></figure>\n";
+    };
+    const auto list = [](const std::string& by, const std::string& items) {
+        return "<div class=\"worst\" title=\"at least 8 pixels apart\"><h4>Worst pixels" + by + "</h4><ol>" +
+               items + "</ol></div>\n</div>\n";
+    };
+    const std::string items =
+        "<li><a href=\"#id@1,2\" data-pixel=\"1,2\">1, 2</a><span>9.5\u00b0</span></li>"
+        "<li><a href=\"#id@3,0\" data-pixel=\"3,0\">3, 0</a><span>0.25\u00b0</span></li>";
+    const auto metrics = [&] { return errorMetrics(c, images, "id"); };
+    const double lowest = std::pow(10.0, -0.5);
+    const auto free = [&](std::size_t part) {
+        return std::vector<PlotBar>{bar(0.1, lowest, 5, part, first), bar(1, root, 1, part, third),
+                                    bar(root, 10, 2, part, last)};
+    };
+    EXPECT_EQ(metrics(), expected(free(7), "", 0, "3 of 11 pixels are equal") + list("", items));
+    bins.infinite = 2;
+    c.criterion = {.metric = "mean"};
+    EXPECT_EQ(metrics(),
+              expected(free(7), "", 0,
+                       "3 of 13 pixels are equal; 2 have an infinite error; the limit applies to mean, not "
+                       "to these errors") +
+                  list("", items));
+    images.error_limit = 2;
+    const std::string text = "3 of 13 pixels are equal; 2 have an infinite error";
+    EXPECT_EQ(metrics(), expected({bar(0.1, lowest, 5, 0, first), bar(1, 2, 1, 0, third),
+                                   bar(2, root, 1, 0, third, true), bar(root, 10, 2, 0, last, true)},
+                                  "tolerance 2\u00b0", 2, text) +
+                             list("", items));
+    images.worst[0].error = 2;
+    EXPECT_EQ(metrics(),
+              expected(free(0), "tolerance 2\u00b0", 2, text) +
+                  list("", items.substr(0, items.find("9.5")) + "2" + items.substr(items.find("9.5") + 3)))
+        << "nothing is beyond";
+    images.worst[0].error = 9.5;
+    c.rule = "t.json, rule 1";
+    images.error_limit = 11;
+    EXPECT_EQ(metrics(),
+              expected(free(0), "limit 11\u00b0, beyond the right edge", 11, text) + list("", items));
+    images.error_limit = 0.05;
+    EXPECT_EQ(metrics(), expected({bar(0.1, lowest, 5, 0, first, true), bar(1, root, 1, 0, third, true),
+                                   bar(root, 10, 2, 0, last, true)},
+                                  "limit 0.05\u00b0, beyond the left edge", 0.05, text) +
+                             list("", items));
+    images.error_limit = 0;
+    EXPECT_EQ(metrics(), expected({bar(0.1, lowest, 5, 0, first, true), bar(1, root, 1, 0, third, true),
+                                   bar(root, 10, 2, 0, last, true)},
+                                  "", 0, text) +
+                             list("", items));
+    // Names of errors; pixels without pictures are no links.
+    images.error_limit.reset();
+    c.criterion.reset();
+    bins.infinite = 0;
+    c.shown_error = std::make_shared<Image>(4, 3, 1);
+    for (const auto& [name, kind] : {std::pair{"F<LIP", "F<LIP"}, {"relative", "relative error"}}) {
+        c.shown_error_name = name;
+        EXPECT_EQ(metrics(),
+                  expected(free(7), "", 0, "3 of 11 pixels are equal", kind + std::string(", \u00b0")) +
+                      list(", by " + page::markup(name), items));
+    }
+    images.kept = false;
+    bins.bins.clear();
+    EXPECT_EQ(metrics(), "<div class=\"spread\">" +
+                             list(", by relative",
+                                  "<li><span>1, 2</span> <span>9.5\u00b0</span></li><li><span>3, 0"
+                                  "</span> <span>0.25\u00b0</span></li>"));
+    images.worst.clear();
+    EXPECT_EQ(metrics(), "");
 }
 
 }  // namespace
