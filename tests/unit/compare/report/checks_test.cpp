@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Visual checks in the report.
+#include "compare/output/writers.h"
 #include "compare/report/report.h"
 #include "compare/report/titles.h"
 #include "tests/support/report_builder.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <set>
 
 namespace diptych {
@@ -131,6 +133,99 @@ TEST(ReportChecks, OneLineOnATerminal) {
     EXPECT_EQ(reportTable(reportOf(bothFrames())).find("by eye"), std::string::npos);
     EXPECT_EQ(checksLine(reportOf(bothFrames(), {{{"skins", 1, {}}}}).comparisons[0]),
               "1 place to check by eye: skins 1");
+}
+
+// A row for each sentence of a feature. Places of one name are numbered; each has its link and tooltip.
+TEST(ReportChecks, TheTableIsWhole) {
+    const std::vector<FeatureChecks> checks{{"skins",
+                                             9,
+                                             {{"bent <a>", "arm", "mesh <0>", litBox, 1},
+                                              {"bent <b>", "arm", "mesh 1", litBox, 1},
+                                              {"bent <a>", "leg", "mesh 2", litBox, 1},
+                                              {"bent <a>", "arm", "mesh 3", litBox, 1}}},
+                                            {"masks", 1, {{"cut", "leaf", "mesh 4", litBox, 1}}}};
+    const auto blocksOf = [&](Keep keep) {
+        const Report report = reportOf(bothFrames(), {checks});
+        ReportOptions options;
+        options.keep = keep;
+        std::vector<output::Block> blocks;
+        addVisualChecks(blocks, report, layoutOf(report, options), 0);
+        return output::inHtml(blocks);
+    };
+    const auto table = [](const std::string& more, const auto& place) {
+        const auto row = [](const std::string& style, const std::string& feature, const std::string& what,
+                            const std::string& where, const std::string& places) {
+            return "<tr" + style + "><td>" + feature + "</td><td class=\"wide\">" + what +
+                   "</td><td class=\"wide\" title=\"" + where + "\">" + places + "</td></tr>\n";
+        };
+        return "<div class=\"checks\" id=\"eye-0\"><h2>To check by eye</h2>\n<p class=\"soft\">Here both "
+               "paths can be "
+               "wrong in the same way, and no comparison shows it." +
+               more +
+               "</p>\n<div class=\"box scroll\"><table><thead><tr><th>feature</th><th class=\"wide\">right "
+               "if</th>"
+               "<th class=\"wide\">places</th></tr></thead>\n<tbody>" +
+               row("", "<b>skins</b> <span class=\"soft\">the 4 largest of 9</span>", "bent &lt;a&gt;",
+                   "mesh &lt;0&gt;; mesh 2; mesh 3", place("arm") + ", " + place("leg") + " " + place("2")) +
+               row(" class=\"more\"", "", "bent &lt;b&gt;", "mesh 1", place("arm")) +
+               row("", "<b>masks</b> <span class=\"soft\">1</span>", "cut", "mesh 4", place("leaf")) +
+               "</tbody></table></div>\n</div>\n";
+    };
+    EXPECT_EQ(blocksOf(Keep::all),
+              table(" Each link shows its place enlarged; where no light falls, in the base colour.",
+                    [](const std::string& name) {
+                        return "<a href=\"#c0-lit@1,2?zoom=2.22&amp;at=1,2\">" + name + "</a>";
+                    }));
+    EXPECT_EQ(blocksOf(Keep::none),
+              table("", [](const std::string& name) { return "<bdi>" + name + "</bdi>"; }));
+}
+
+// A place is dark if less than a tenth of it reaches a hundredth of white.
+TEST(ReportChecks, ADarkPlaceIsShownInItsBaseColour) {
+    const auto shown = [](int bright, float light, int component) {
+        std::vector<Frame> frames = bothFrames();
+        for (Frame& frame : frames) {
+            frame.settings.size = {20, 1};
+            for (auto* images : {&frame.channels, &frame.through_gbuffer})
+                for (auto& [mode, image] : *images)
+                    image = Image(20, 1, image.components, mode == Channel::material_id ? 3.0f : 0.0f);
+            for (int x = 0; x < bright; ++x) frame.channels.at(Channel::lit).at(x, 0, component) = light;
+        }
+        Report report =
+            reportOf(std::move(frames), {{{"skins", 1, {{"what", "name", "where", {0, 0, 20, 1}, 1}}}}});
+        ReportLayout layout = layoutOf(report, {});
+        for (ChannelImages& images : layout.images[0]) images.scale.exposure.factor = 4;
+        std::vector<output::Block> blocks;
+        addVisualChecks(blocks, report, layout, 0);
+        return linkOf(output::inHtml(blocks), "name");
+    };
+    const std::string albedo = "#c0-albedo@10,0?zoom=1&amp;at=9.5,0",
+                      lit = "#c0-lit@10,0?zoom=1&amp;at=9.5,0";
+    constexpr float enough = 0.01f / 4;
+    EXPECT_EQ(shown(2, std::nextafter(enough, 1.0f), 0), lit);
+    EXPECT_EQ(shown(2, std::nextafter(enough, 0.0f), 0), albedo);
+    EXPECT_EQ(shown(1, 1, 0), albedo);
+    for (const int component : {1, 2}) EXPECT_EQ(shown(2, 1, component), lit) << "the largest component";
+}
+
+// The margin is a third of the box; no place is enlarged more than eight times.
+TEST(ReportChecks, PlacesAreEnlargedEightTimesAtMost) {
+    const auto zoom = [](const PixelBox& box) {
+        std::vector<Frame> frames = bothFrames();
+        for (Frame& frame : frames) {
+            frame.settings.size = {100, 50};
+            for (auto* images : {&frame.channels, &frame.through_gbuffer})
+                for (auto& [mode, image] : *images) image = Image(100, 50, image.components, 1.0f);
+        }
+        const std::string link =
+            linkOf(pageOf(reportOf(std::move(frames), {{{"skins", 1, {{"what", "name", "where", box, 1}}}}})),
+                   "name");
+        return link.substr(link.find('@'));
+    };
+    EXPECT_EQ(zoom({10, 20, 20, 22}), "@15,21?zoom=7.41&amp;at=14.5,20.5") << "a tenth wide: 10 / 1.35";
+    EXPECT_EQ(zoom({10, 20, 12, 25}), "@11,22?zoom=7.41&amp;at=10.5,22") << "a tenth high";
+    EXPECT_EQ(zoom({10, 20, 12, 21}), "@11,20?zoom=8&amp;at=10.5,20");
+    EXPECT_EQ(zoom({0, 0, 100, 50}), "@50,25?zoom=1&amp;at=49.5,24.5");
 }
 
 // A pair keeps its checks, whichever path is the left image.

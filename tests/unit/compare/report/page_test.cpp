@@ -266,7 +266,7 @@ TEST(ReportPage, TheTableOfComparisonsIsWhole) {
     c.right_ms = 3.75;
     c.device = "a <GPU>";
     c.channels = {{"lit", "fail", 1e300, 1e300, 0, 0, 0, 0, -1, 0},
-                  {"</x>", "fail", 2, 0, 0, 0, 0, 0, -1, 0}};
+                  {"</</\u00fc>", "fail", 2, 0, 0, 0, 0, 0, -1, 0}};
     texts.devices.push_back({});
     texts.since = std::make_shared<Trends>(Trends{
         "old",
@@ -277,7 +277,7 @@ TEST(ReportPage, TheTableOfComparisonsIsWhole) {
         filters(choice("camera", "<option>&lt;door&gt;</option><option>default view</option>") +
                     choice("cause", "<option>&lt;shadows&gt;</option>") +
                     choice("since", "<option>moved</option><option>same</option>"),
-                "<option>roughness</option><option>lit</option><option>&lt;/x&gt;</option>") +
+                "<option>roughness</option><option>lit</option><option>&lt;/&lt;/\u00fc&gt;</option>") +
         heads({{"verdict", ""},
                {"scene", "wide"},
                {"camera", "wide"},
@@ -315,7 +315,8 @@ TEST(ReportPage, TheTableOfComparisonsIsWhole) {
         "<td class=\"wide\"></td><td class=\"wide\">a CPU</td><td></td></tr>\n</tbody></table></div>\n"
         "<script type=\"application/json\" id=\"figures\">"
         "{\"0\":{\"lit\":[0,0.1235,0.2346,0.3457,0.4568,0.5679,0.6789,0.7891]},\n"
-        "\"1\":{\"lit\":[1,1e+300,1e+300,0,0,0,0,-1],\"<\\/x>\":[1,2,0,0,0,0,0,-1]}}</script></div>\n";
+        "\"1\":{\"lit\":[1,1e+300,1e+300,0,0,0,0,-1],\"<\\/<\\/\\u00fc>\":[1,2,0,0,0,0,0,-1]}}</script></"
+        "div>\n";
     EXPECT_EQ(indexOf(report, layout, texts), expected);
 }
 

@@ -176,6 +176,17 @@ TEST(ReportValues, OneFrameAloneHasItsOwn) {
     EXPECT_EQ(back.planes[1][19], double{a.data[39]});
 }
 
+// Its largest value takes 2^14 to 2^15 of float16.
+TEST(ReportValues, OneFrameAloneIsScaledByItsLargestValue) {
+    const Image a(2, 1, 1, 0x1.8p-30f);
+    const Decoded back = decoded(scriptOf({&a, nullptr, nullptr}));
+    EXPECT_EQ(back.head["bits"], 16);
+    EXPECT_EQ(back.head["exponent"], 44);
+    EXPECT_EQ(back.head["errorUnit"], 1.0);
+    EXPECT_EQ(back.head["errors"], false);
+    EXPECT_EQ(back.planes[0], (std::vector<double>{0x1.8p-30, 0x1.8p-30}));
+}
+
 // A report without images: the layout only needs the size.
 TEST(ReportValues, ImagesBeyondTheLimitHaveNoneAndThePageSaysSo) {
     for (const int width : {4096, 4097}) {
