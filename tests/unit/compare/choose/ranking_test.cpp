@@ -78,6 +78,61 @@ TEST(ChooseRanking, TheFastestWinsAndIsSure) {
     EXPECT_GE(significant, 180u);
 }
 
+// The runner-up has the least ratio; ties are all that are not surely slower.
+TEST(ChooseRanking, ARaceNamesWinnerRunnerUpAndTies) {
+    const auto ratio = [](double value, double low) {
+        TimeRatio made;
+        made.ratio = value;
+        made.low = low;
+        made.high = 2 * value - low;
+        return made;
+    };
+    const std::vector<std::size_t> finalists{7, 5, 9, 3};
+    const Ranking ranking{{}, {ratio(1.5, 1.25), {}, ratio(1.25, 0.75), ratio(1.375, 1.125)}, 1, false, 0};
+    ASSERT_TRUE(ranking.ratios[0].isSlower());
+    ASSERT_FALSE(ranking.ratios[2].isSlower());
+    Race race = raceOf(ranking, finalists);
+    EXPECT_EQ(race.chosen, 5u);
+    EXPECT_EQ(race.runner_up, 9u);
+    EXPECT_EQ(race.ties, std::vector<std::size_t>{9});
+    EXPECT_FALSE(race.significant);
+    Ranking sure = ranking;
+    sure.ratios[2] = ratio(1.375, 1.125);
+    sure.significant = true;
+    race = raceOf(sure, finalists);
+    EXPECT_EQ(race.runner_up, 9u) << "the first of equals";
+    EXPECT_TRUE(race.ties.empty());
+    EXPECT_TRUE(race.significant);
+    race = raceOf({{}, {{}}, 0, true, 0}, std::vector<std::size_t>{4});
+    EXPECT_EQ(race.chosen, 4u);
+    EXPECT_FALSE(race.runner_up.has_value());
+}
+
+// Alone, a finalist wins after the least number of rounds; copies that are equal end the race then, too.
+TEST(ChooseRanking, ARaceEndsWhenItIsDecided) {
+    std::vector<std::size_t> asked;
+    const auto draw = [&](std::span<const std::size_t> order) {
+        asked.push_back(order.size());
+        std::vector<double> times;
+        for (const std::size_t i : order) times.push_back(i == 2 ? 20.0 : 10.0);
+        return times;
+    };
+    const Ranking one = rankByTime(1, draw, 3, 8);
+    EXPECT_EQ(asked, std::vector<std::size_t>{6});
+    EXPECT_TRUE(one.significant);
+    EXPECT_EQ(one.draws, 6u);
+    EXPECT_NEAR(one.ms.at(0), 10, 1e-9);
+    EXPECT_EQ(one.ratios.at(0).pairs, 3);
+    asked.clear();
+    const Ranking three = rankByTime(3, draw, 2, 8);
+    EXPECT_EQ(asked, std::vector<std::size_t>{12});
+    EXPECT_EQ(three.winner, 0u);
+    EXPECT_FALSE(three.significant) << "two are equal";
+    EXPECT_NEAR(three.ms.at(2), 20, 1e-9);
+    EXPECT_NEAR(three.ratios.at(2).ratio, 2, 1e-9);
+    EXPECT_TRUE(three.ratios.at(2).isSlower());
+}
+
 }  // namespace
 
 }  // namespace diptych::choose

@@ -31,6 +31,8 @@ TEST(Emitted, OnlyWhatTheWritersEmitPasses) {
                                 "<p>",
                                 "</p>",
                                 "<b><i></b></i>",
+                                "<p></p ",
+                                "<p></p x>",
                                 "<p",
                                 "<p class=\"a",
                                 "<p class=a></p>",

@@ -65,6 +65,31 @@ TEST(ErrorHistogram, OneErrorOrNoneHasABinOrNone) {
     EXPECT_EQ(none.infinite, 1u);
 }
 
+// Edges are those of decades: as many bins as fit 48, from 4 to 24 of a decade.
+TEST(ErrorHistogram, BinsAreFractionsOfDecades) {
+    struct Binned {
+        float low, high;
+        int first, per_decade;
+        std::size_t bins, at_low, at_high;
+    };
+    for (const auto& [low, high, first, per_decade, bins, at_low, at_high] :
+         {Binned{1, 1, -1, 24, 24, 23, 23},        // the upper edge is in the last bin
+          Binned{0.25f, 0.5f, -1, 24, 24, 9, 16},  // 24 log10(2.5) = 9.6, 24 log10(5) = 16.8
+          Binned{0.02f, 0.5f, -2, 24, 48, 7, 40}, Binned{0.002f, 0.5f, -3, 16, 48, 4, 43},
+          Binned{2e-12f, 0.5f, -12, 4, 48, 1, 46}, Binned{2e-13f, 0.5f, -12, 4, 48, 0, 46},
+          Binned{2, 50, 0, 24, 48, 7, 40}}) {
+        const ErrorHistogram histogram = errorHistogram(errorsOf(2, 1, {{0, low}, {1, high}}), everyPixel(2));
+        EXPECT_EQ(histogram.first_decade, first) << low;
+        EXPECT_EQ(histogram.bins_per_decade, per_decade) << low;
+        ASSERT_EQ(histogram.bins.size(), bins) << low;
+        std::vector<std::uint64_t> expected(bins);
+        ++expected[at_low];
+        ++expected[at_high];
+        EXPECT_EQ(histogram.bins, expected) << low << " " << high;
+        EXPECT_EQ(histogram.smaller, low < 1e-12f ? 1u : 0u) << low;
+    }
+}
+
 TEST(WorstPixels, AreApartAndLargestFirst) {
     // A spot of 5 x 5 around (10, 10), and smaller ones beside it: just too close and just far enough.
     Image errors(40, 20, 1);
