@@ -228,8 +228,8 @@ TEST(Shards, ItemsAreThoseOfTheCommand) {
     listed.push_back(nlohmann::ordered_json::array({"builtin:gallery", 0}));
     listed.push_back(nlohmann::ordered_json::array({"builtin:spheres", 0}));
     EXPECT_EQ(all.plan, (nlohmann::ordered_json{{"shards", 1}, {"scenes", listed}}));
-    EXPECT_EQ(partOf({"a", "a-1/", 1}), "a-1-scene");
-    EXPECT_EQ(partOf({"a", "", 1}), "scene");
+    EXPECT_EQ(partOf(Item{"a", "a-1/", 1}), "a-1-scene");
+    EXPECT_EQ(partOf(Item{"a", "", 1}), "scene");
     for (const Item& item : itemsOf(scenes, false, "", {}).all) EXPECT_EQ(item.folder, "");
     std::vector<std::string> once;
     for (const char* shard : {"1/2", "2/2"}) {
