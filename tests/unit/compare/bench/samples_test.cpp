@@ -243,8 +243,8 @@ TEST(BenchSamples, JsonIsWhole) {
             cell("4", R"("median":1234.0,"min":1233.0,"max":1236.0)",
                  R"("lighting_ms":618.0,"image_mib":0.09375,"bytes_per_pixel":16,"bytes_per_sample":4)") +
             R"(]}],"memory":["deferred stores 32 B of G-buffer and depth per sample with 4 samples per )"
-            R"(pixel: 253 MiB at 1920x1080","forward_plus stores 4, 4 B of depth per sample with 1, 4 samples )"
-            R"(per pixel: 8, 32 MiB at 1920x1080"]}])");
+            R"(pixel: 253 MiB at 1920x1080","forward_plus stores 4, 4 B of depth per sample with 1, 4 )"
+            R"(samples per pixel: 8, 32 MiB at 1920x1080"]}])");
 }
 
 // A size, a scene and a light count have tables of their own; what differs otherwise is a line.
