@@ -21,13 +21,14 @@ struct Everything {
     Pose pose;
     View view = viewFrom({4, 2, 3}, {0, 0, 0}, 32, 36);
     std::map<Channel, Image> surfaces, decoded;
+    bool sampled;
 
-    // `sampled`: the sky is not uniform, so its light takes samples.
-    explicit Everything(bool sampled = false) {
+    // `sampled`: the sky is not uniform, so its light takes samples, and its approximations err.
+    explicit Everything(bool sampled_sky = false) : sampled(sampled_sky) {
         scene.meshes[0].primitives = {quad({-0.6f, -0.6f, 0}, {1.2f, 0, 0}, {0, 1.2f, 0})};
         Material& floor = scene.materials[0];
         floor.specular = 1;
-        floor.roughness = 0.02f;
+        floor.roughness = 0.5f;
         floor.emissive = {0.1f, 0.2f, 0.3f};
         Material sheet = matte();
         sheet.alpha_mode = AlphaMode::blend;
@@ -39,8 +40,8 @@ struct Everything {
         add(scene, quad({0.3f, -0.5f, 0.5f}, {0.4f, 0, 0}, {0, 0.5f, 0}));
         add(scene, quad({-0.5f, 0, 0.3f}, {0.5f, 0, 0}, {0, 0.5f, 0}, 1));
         add(scene, quad({0.2f, 0.2f, 0.3f}, {0.5f, 0, 0}, {0, 0.5f, 0}, 2));
-        scene.environment = Environment{"sky", Image(8, 4, 3, 0.2f)};
-        if (sampled) scene.environment->radiance.at(2, 1, 0) = 0.4f;
+        scene.environment = Environment{"sky", Image(4, 2, 3, 0.2f)};
+        if (sampled) scene.environment->radiance.at(2, 0, 0) = 0.4f;
         scene.lights = {lightOf(LightKind::directional, {0, 0, 0}, {0.3, 0.2, -1}),
                         lightOf(LightKind::spot, {0, 0, 2}), lightOf(LightKind::rect, {0, 0, 2})};
         // A pixel lies at the edge of the spot's cone, where float32 errs.
@@ -75,7 +76,7 @@ struct Everything {
                 .lights = pose.lights,
                 .ambient = {0.1, 0.2, 0.3},
                 .casters = everyLight(pose.lights),
-                .environment_costs = true,
+                .environment_costs = sampled,
                 .surroundings = true,
                 .mode = decoding ? ReferenceMode::surface : ReferenceMode::scene};
     }

@@ -55,7 +55,7 @@ TEST(SlurmSubmission, TheMergeWaitsForTheArray) {
 // Both scripts, whole: words of /bin/sh and of #SBATCH lines are quoted by different rules.
 TEST(SlurmSubmission, ScriptsAreWhole) {
     SlurmJob job{
-        "/opt/my diptych", "/home/it's", {"compare", "a b.glb", "--size", "8x8"}, "100%/report", 2, 0, {}};
+        "/opt/my diptych", "/srv/it's", {"compare", "a b.glb", "--size", "8x8"}, "100%/report", 2, 0, {}};
     EXPECT_EQ(slurmFolder("a/report/"), "a/report.slurm");
     EXPECT_EQ(
         arrayScript(job),
@@ -67,7 +67,7 @@ TEST(SlurmSubmission, ScriptsAreWhole) {
         "#SBATCH --open-mode=append\n"
         "# Exit code 1 is a difference beyond tolerance, which the merged report shows. Slurm calls such "
         "a task\n# failed, too.\n"
-        "cd '/home/it'\\''s' || exit 2\n"
+        "cd '/srv/it'\\''s' || exit 2\n"
         "exec '/opt/my diptych' compare --shard slurm/2 -o 100%/report.slurm/shard-"
         "\"$SLURM_ARRAY_TASK_ID\" 'a b.glb' --size 8x8\n");
     EXPECT_EQ(mergeScript(job),
@@ -76,7 +76,7 @@ TEST(SlurmSubmission, ScriptsAreWhole) {
               "#SBATCH --output=\"100%%/report.slurm/merge.log\"\n"
               "#SBATCH --requeue\n"
               "#SBATCH --open-mode=append\n"
-              "cd '/home/it'\\''s' || exit 2\n"
+              "cd '/srv/it'\\''s' || exit 2\n"
               "exec '/opt/my diptych' merge 100%/report.slurm/shard-1 100%/report.slurm/shard-2 -o "
               "100%/report\n");
     job.at_once = 1;
