@@ -99,6 +99,11 @@ TEST(Rows, AreReadBack) {
     const Json json = Json::parse(jsonOf(row).dump());
     const Row back = rowFrom(JsonAt<Json>(json));
     EXPECT_EQ(back[Measure::leak], 1.0 / 3);
+    EXPECT_EQ(back.scene, row.scene);
+    EXPECT_NE(row.scene, "");
+    EXPECT_EQ(back.varied, row.varied);
+    EXPECT_EQ(back.failed, row.failed);
+    EXPECT_EQ(back.settings, row.settings);
     EXPECT_EQ(back[Measure::flip], std::numeric_limits<double>::infinity());
     EXPECT_FALSE(back.measured.has(Measure::shaded));
     EXPECT_EQ(back.cameras.at(0).camera, "c");

@@ -366,5 +366,26 @@ TEST(Calibration, AResponseIsItsOwnInverse) {
         EXPECT_NEAR(reinhard.radiance(glm::dvec3(v / (1 + v))).r, v, 0.06 * v) << v;
 }
 
+// Emitters of one component each, as a renderer with these primaries writes them (BT.2087, EG 432-1).
+TEST(Calibration, PrimariesAreNamedByTheirColumns) {
+    using Columns = std::array<glm::dvec3, 3>;
+    const std::pair<std::optional<Primaries>, Columns> cases[] = {
+        {Primaries::rec709, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}},
+        {Primaries::display_p3, {{{0.8225, 0.0332, 0.0171}, {0.1775, 0.9668, 0.0724}, {0, 0, 0.9105}}}},
+        {Primaries::rec2020,
+         {{{0.6274, 0.0691, 0.0164}, {0.3293, 0.9195, 0.0880}, {0.0433, 0.0114, 0.8956}}}},
+        {std::nullopt, {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}}}};
+    for (const auto& [primaries, columns] : cases) {
+        Response response({{0.1, 0.1}, {1, 1}, {4, 4}});
+        Columns doubled = columns;
+        for (glm::dvec3& column : doubled) column *= 2;
+        response.measurePrimaries(doubled, 2);
+        EXPECT_EQ(response.primaries(), primaries);
+        const glm::dvec3 wanted(0.5, 0.25, 0.75),
+            written = columns[0] * wanted.r + columns[1] * wanted.g + columns[2] * wanted.b;
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(response.radiance(written)[c], wanted[c], 1e-3) << c;
+    }
+}
+
 }  // namespace
 }  // namespace diptych::external

@@ -7,6 +7,26 @@
 namespace diptych {
 namespace {
 
+// Our own images have a path and Settings, an external renderer's the Settings that it was asked for, another
+// program's file neither.
+TEST(FrameJson, WhoMadeAFrameDecidesWhatIsKnown) {
+    const auto known = [](const FrameOrigin& origin) {
+        Frame frame;
+        frame.settings.path = Path::deferred;
+        frame.origin = origin;
+        const nlohmann::ordered_json json = jsonOf(frame);
+        return std::pair(!json["path"].is_null(), !json["settings"].is_null());
+    };
+    FrameOrigin file, ours, external;
+    file.file = ours.file = external.file = "a.exr";
+    ours.device = "a CPU";
+    external.external = true;
+    EXPECT_EQ(known({}), std::pair(true, true));
+    EXPECT_EQ(known(ours), std::pair(true, true));
+    EXPECT_EQ(known(external), std::pair(false, true));
+    EXPECT_EQ(known(file), std::pair(false, false));
+}
+
 TEST(FrameJson, EveryNumberStandsUnderItsKey) {
     Frame frame;
     frame.time.median = 2;

@@ -127,6 +127,11 @@ TEST(Layers, OnlyColoursAreAPair) {
               std::vector<std::string>{"lit of the reference is compared with ViewLayer.Combined of the "
                                        "test: each is the only colour of its image"});
     EXPECT_EQ(matchChannels(named("a"), named("b"), {}).channels.at(0).name, "a");
+    const std::string shown(60, 'n');
+    EXPECT_NE(matchChannels(plain(), named(shown), {}).notes.at(0).find("with " + shown + " of"),
+              std::string::npos);
+    EXPECT_EQ(matchChannels(plain(), named(shown + "n"), {}).notes.at(0).find(shown + "n"), std::string::npos)
+        << "a longer name is cut";
     EXPECT_NE(faultOf([&] {
                   matchChannels(plain(), named("albedo"), {});
               }).find("--map 'lit=albedo.R,albedo.G,albedo.B' compares these two"),

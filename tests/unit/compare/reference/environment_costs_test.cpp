@@ -7,6 +7,7 @@
 #include "shared/scene/model/luminance.h"
 #include "tests/support/reference_scene.h"
 
+#include <array>
 #include <random>
 
 namespace diptych::reference {
@@ -18,6 +19,17 @@ Environment evenSky(float radiance, int width = 32, int height = 16) {
 
 EnvironmentCosts costsUnder(const Environment& sky, const Surface& s) {
     return withCosts(sky, s).costs;
+}
+
+TEST(ReferenceEnvironmentCosts, AreAddedAndScaledOneByOne) {
+    const EnvironmentCosts one{{1, 2, 3}, {4, 5, 6}, 7, 8, 9};
+    EnvironmentCosts sum = one;
+    sum += one * 3;
+    EXPECT_EQ(sum.diffuse, (std::array<double, 3>{4, 8, 12}));
+    EXPECT_EQ(sum.split, (std::array<double, 3>{16, 20, 24}));
+    EXPECT_EQ(sum.sampled, 28);
+    EXPECT_EQ(sum.wider, 32);
+    EXPECT_EQ(sum.lobe, 36);
 }
 
 TEST(ReferenceEnvironmentCosts, ItsHarmonicsAreThePaths) {

@@ -85,6 +85,8 @@ TEST(GltfLightmap, OpenExrIsReadAsLinearLightAndOnlyThere) {
     const Scene scene = file.load();
     const TextureImage& image = scene.images.at(0);
     EXPECT_EQ(image.rgba32, (std::vector<float>{0.25f, 40, 0.25f, 1, 0.25f, 0.25f, 0, 1}));
+    EXPECT_EQ(image.width, 2);
+    EXPECT_EQ(image.height, 1);
     EXPECT_EQ(image.largest, 40);
     EXPECT_TRUE(std::ranges::any_of(scene.notes, [](const std::string& note) {
         return note.find("negative; 0 is used") != std::string::npos;
