@@ -47,7 +47,6 @@ TEST(ExperimentSensitivity, ASunAloneFeelsNoListsAndNoAreaLights) {
     EXPECT_GT(valuesOf(sweep, "shadows").size(), 4u);
     EXPECT_EQ(reasonOf(sweep, "assign", "tiled"), "no light has a position: every light reaches every pixel");
     EXPECT_EQ(reasonOf(sweep, "shadows"), "the sun has no angular size: pcss equals pcf");
-    EXPECT_TRUE(valuesOf(sweep, "shadows").contains("pcf")) << "in its place";
 }
 
 TEST(ExperimentSensitivity, ASunWithADiscFeelsPcss) {
